@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "tests/support/octomap_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -142,6 +144,23 @@ TEST(RobotDefaults, SayWhereTheFootprintComesFrom) {
   const ConfigNode* radius = find_value(filled, "navigation.footprint_radius_m");
   ASSERT_NE(radius, nullptr);
   EXPECT_EQ(radius->where(), "mine/robot.yaml: navigation.footprint_radius_m");
+}
+
+/// Of data and in a working directory that have a scene and no robots.
+TEST(ValidateFile, OfASceneNamesTheKeyOfTheRobotThatIsMissing) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "scene.xml", "<mujoco/>");
+  const fs::path before = fs::current_path();
+  const char* set = std::getenv("VANTAGE_DATA");
+  const std::string data = set == nullptr ? "" : set;  // empty is as good as none
+  ::setenv("VANTAGE_DATA", folder.path().c_str(), 1);
+  fs::current_path(folder.path());
+  const std::string said = problem(folder / "scene.xml");
+  fs::current_path(before);
+  ::setenv("VANTAGE_DATA", data.c_str(), 1);
+  EXPECT_THAT(said, testing::StartsWith("robot.model: models/robots/pr2: no such file (looked in "
+                                        "., the working directory and " +
+                                        folder.path().string()));
 }
 
 }  // namespace

@@ -88,6 +88,14 @@ TEST(VisitedPlaces, WhereSomethingWasMissedMayBeGoneToOnceMore) {
   EXPECT_FALSE(visited.reopen()) << "once";
 }
 
+TEST(VisitedPlaces, TheVeryFirstMayBeGoneToOnceMoreToo) {
+  VisitedPlaces visited;
+  EXPECT_FALSE(visited.reopen());
+  visited.add({1.0, 2.0}, 0.5, true);
+  EXPECT_TRUE(visited.reopen());
+  EXPECT_FALSE(visited.covers({1.0, 2.0}));
+}
+
 TEST(StartText, NamesTheSiteOrThePose) {
   RobotOptions robot;
   robot.start_pose = {1.5, 2.25, -0.5};

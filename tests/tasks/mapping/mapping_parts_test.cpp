@@ -15,6 +15,7 @@
 
 #include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/mapping/still_table.hpp"
+#include "tests/tasks/shown_progress.hpp"
 #include "vantage/planners/prediction_bands.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/report/report_data.hpp"
@@ -394,6 +395,49 @@ TEST(MappingParts, LeaveOutViewsThatCannotBePaid) {
   at.parts.score(views);
   EXPECT_FALSE(views[0].exhausted);
   EXPECT_TRUE(views[1].exhausted);
+}
+
+TEST(MappingParts, SayWhichScanWasNotRegisteredInAllDirections) {
+  AtStillTable at(still_table().task);
+  const auto said = [&](bool registered, int unconstrained) {
+    const Pose T_world_sensor = at.parts.views()[4].T_world_sensor;
+    at.parts.predict(T_world_sensor);
+    BeliefUpdate update;
+    update.registered = registered;
+    update.registration_note = "too few points";
+    update.unconstrained = unconstrained;
+    at.table.robot.now_s += 40.0;
+    testing::internal::CaptureStderr();
+    at.parts.measure(at.parts.before_update(), update, T_world_sensor);
+    const std::string text = testing::internal::GetCapturedStderr();
+    at.parts.record_scan();
+    return text;
+  };
+  EXPECT_EQ(said(true, 0), "");
+  const std::string unregistered = said(false, 3);
+  EXPECT_NE(unregistered.find("scan 2: not registered, too few points: "), std::string::npos)
+      << unregistered;
+  const std::string along = said(true, 2);
+  EXPECT_NE(along.find("scan 3: registered, but for 2 of 3 directions"), std::string::npos)
+      << along;
+}
+
+TEST(MappingRecorder, ShowsHowFarTheEpisodeHasCome) {
+  if (!support::has_terminals()) GTEST_SKIP() << "no /dev/pts here";
+  StillTable& table = still_table();
+  const support::TemporaryDirectory folder;
+  const RunRequest request =
+      support::mapping_request(table.episode, {folder.path() / "run", true, false, {}, true});
+  const EpisodeRun run(request);
+  MappingRecorder recorder(run, recorded(table.robot), {}, 5);
+  ScanRecord record;
+  record.observable_unobserved_cells = 700;
+  record.time_s = 12.5;
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {4.0, 1.0, 1.0}, {4, 1, 1}));
+  const std::string shown = support::shown_progress([&] { recorder.scan(record, 3, grid); });
+  EXPECT_NE(shown.find(" 60 % scan 3 of 5: 700 observable cells left, 12.5 s simulated"),
+            std::string::npos)
+      << shown;
 }
 
 }  // namespace

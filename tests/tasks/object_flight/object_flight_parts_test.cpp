@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "tests/tasks/object_flight/scripted_flight.hpp"
+#include "vantage/runtime/log/video.hpp"
 #include "vantage/tasks/object_flight/object_flight_metrics.hpp"
 
 namespace vantage {
@@ -423,6 +425,61 @@ TEST_F(ScriptedFlight, ItsMetricsEndWithTheLastEstimateOrNone) {
   for (const char* key : {"truth", "true_yaw_rad", "bin_error"}) {
     EXPECT_TRUE(of_nothing.at(key).is_null()) << key;
   }
+}
+
+/// A still of the video has the panel in its right half. Its images show nothing.
+TEST_F(ScriptedFlight, ShowsInItsPanelWhereItIsAndWhatItBelieves) {
+  if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
+  robot_.T_world_body = make_pose(task_.p_world_table_m() + Eigen::Vector3d(0.3, -0.25, 1.0), 1.5);
+  const CameraImages image = robot_.observe().images;
+  const auto at_origin = [] { return Pose(Pose::Identity()); };
+  const auto expect_shown = [&](const char* folder, const FlightGoal& goal,
+                                const Expectation& expectation) {
+    RunOptions filmed = lean_options();
+    filmed.directory = folder_ / folder;
+    filmed.video = true;
+    const RunRequest request{setup_, "recognition", "star", "a: 1\n", {}, filmed};
+    const EpisodeRun run(request);
+    ObjectFlightRecorder recorder(
+        run, {.world = world_, .T_world_body = at_origin, .T_world_estimated = at_origin}, 8,
+        false);
+    ObjectFlightParts parts({setup_.options, task_, recogniser_, robot_, evaluator_, recorder},
+                            goal, expectation.object.empty() ? what_is_it() : is_it_that_bowl(),
+                            2.0, expectation);
+    look(parts);
+    RecognitionPanelInput expected{.observation_records = parts.records(), .orbit = task_.orbit()};
+    expected.goal_rad = 2.0;
+    expected.T_world_body = robot_.T_world_body;
+    expected.camera_image = &image;
+    expected.set_belief(recogniser_.states, parts.recognition().belief);
+    expected.expected = expectation.object;
+    expected.threshold = expectation.threshold;
+    expected.method = task_.method_name();
+    expected.targets_m = goal.p_world_m;
+    TableMap map(task_.p_world_table_m(), goal.among_others.value_or(AmongOthers{}).map);
+    if (goal.among_others) {
+      map.insert(image, robot_.T_world_camera);
+      expected.map = &map.grid();
+    }
+    const UprightCylinder usual{task_.p_world_table_m(), 0.05, 0.14};
+    for (int id = 0; id < 4; ++id) {
+      const double at_rad = std::fmod(2.0 + kRightAngle_rad * id, 4.0 * kRightAngle_rad);
+      expected.bearings_rad.push_back(at_rad);
+      if (!goal.among_others) continue;
+      const Eigen::Vector3d eye_m = task_.orbit().place(at_rad).translation();
+      expected.visible.push_back(map.visible_share(usual, {}, eye_m));
+    }
+    const cv::Mat still = cv::imread((filmed.directory / "frames/scan_01.png").string());
+    release_run_directory(filmed.directory);
+    ASSERT_EQ(still.size(), cv::Size(1280, 720)) << folder;
+    const cv::Mat panel = draw_recognition_panel(expected, {640, 720});
+    EXPECT_EQ(cv::norm(still(cv::Rect(640, 0, 640, 720)), panel, cv::NORM_INF), 0.0) << folder;
+  };
+  FlightGoal among = goal(2);
+  among.among_others.emplace();
+  expect_shown("alone", goal(1), {});
+  expect_shown("expected", goal(1), {"bowl_2", 0.25});
+  expect_shown("among others", among, {});
 }
 
 }  // namespace

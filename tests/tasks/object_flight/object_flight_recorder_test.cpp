@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/shown_progress.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/report/report_data.hpp"
@@ -250,6 +251,24 @@ TEST(ObjectFlightRecorder, KeepsItsStoryAndSinceWhichViewTheMapHasWhat) {
   EXPECT_EQ(std::get<PlannedFlight>(story[2].what).path_m, way.path_m);
   EXPECT_TRUE(std::holds_alternative<MapChange>(story[3].what));
   EXPECT_TRUE(std::filesystem::exists(room.folder.path() / "run/scene.bin"));
+}
+
+TEST(ObjectFlightRecorder, ShowsHowFarTheFlightHasCome) {
+  if (!support::has_terminals()) GTEST_SKIP() << "no /dev/pts here";
+  RoomRecorder room(true);
+  ObservationRecord record;
+  record.time_s = 12.5;
+  record.estimate = "mug_1";
+  record.map_probability = 0.75;
+  const auto shown = [&](std::size_t number) {
+    return support::shown_progress(
+        [&] { room.recorder.observation(record, number, small_image(), std::nullopt); });
+  };
+  EXPECT_THAT(shown(2), testing::HasSubstr(" 25 % view 2 of at most 8: mug_1 with probability "
+                                           "0.75, 12.5 s simulated"));
+  record.change = {0.25, Change::none};
+  EXPECT_THAT(shown(6), testing::HasSubstr(" 75 % view 6 of at most 8: changed with probability "
+                                           "0.25, 12.5 s simulated"));
 }
 
 }  // namespace

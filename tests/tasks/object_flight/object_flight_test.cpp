@@ -282,6 +282,11 @@ TEST(ObjectInquiry, SaysWhyItKnowsWhatItIs) {
   const double entropy_bits = -4.0 / 11.0 * std::log2(4.0 / 11.0) + 7.0 / 11.0 * std::log2(11.0);
   EXPECT_EQ(over_after(1, 8, certain),
             fmt::format("sure: entropy {:.3g} bits, below enough.entropy_bits 2.8", entropy_bits));
+  const EnoughViews surer{.object_probability = 1.0, .entropy_bits = 2.0};
+  EXPECT_EQ(over_after(1, 8, surer), "");
+  const double after_two_bits = std::log2(23.0) - 16.0 / 23.0 * 4.0;
+  EXPECT_EQ(over_after(2, 8, surer),
+            fmt::format("sure: entropy {:.3g} bits, below enough.entropy_bits 2", after_two_bits));
 }
 
 /// Each view makes a change four times as likely, or a fourth.

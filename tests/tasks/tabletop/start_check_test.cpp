@@ -238,6 +238,18 @@ TEST(ValidateTableTop, WhatIsFreeAllRoundIsSoForTheWholeRobot) {
   EXPECT_NEAR(std::stod(said.substr(at + 4)), 2.95 - 0.52, 0.06) << said;
 }
 
+/// The one position is on the right of a table 3 m to the left; a screen at the table's edge hides
+/// it from there. On that side it is 9 m to the end of the floor map.
+TEST(ValidateTableTop, WhatIsFreeReachesToTheFarEndOfTheFloorMap) {
+  const OwnScene scene(table_at(-3.0, 0.0, 0.72, 0.5, 0.5) +
+                       "<geom type='box' pos='-2.43 0 .8' size='.02 .6 .8'/>");
+  const std::string said = problem(validated("tabletop", scene, {"candidates.positions=1"}));
+  EXPECT_THAT(said, HasSubstr("of 1 positions on the ring 0 are out of the robot's reach, and 1 "));
+  const std::size_t at = said.rfind(" to ");
+  ASSERT_NE(at, std::string::npos) << said;
+  EXPECT_NEAR(std::stod(said.substr(at + 4)), 9.0 - 0.52, 0.06) << said;
+}
+
 /// A laser that sees straight ahead alone, from where that is the middle of the map.
 TEST(ValidateTableTop, AViewOfTheMiddleOfTheMapIsOfUse) {
   const Validation found = validated("tabletop", OwnScene(kTable + kWalls),

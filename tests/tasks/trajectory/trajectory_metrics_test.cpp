@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "tests/tasks/shown_progress.hpp"
 #include "tests/tasks/trajectory/noted_flight.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/tasks/trajectory/flight_layout.hpp"
@@ -253,6 +254,22 @@ TEST(FlightTask, IsAsLongAndAsWideAsItsPath) {
   EXPECT_EQ(window.map->size(), map.grid().size());
   EXPECT_EQ(window.map->min_corner_m, map.grid().frame.min_corner_m);
   EXPECT_EQ(TrajectoryFlight::report().view_heading, "The flight");
+}
+
+TEST(FlightRecords, ShowHowFarTheFlightHasCome) {
+  if (!support::has_terminals()) GTEST_SKIP() << "no /dev/pts here";
+  NotedFlight flight;
+  WaypointRecord record;
+  record.waypoint = 2;
+  record.time_s = 12.3456;
+  record.objects = 5;
+  record.known = 4;
+  record.observations = 9;
+  const std::string shown = support::shown_progress([&] { flight.recorder.waypoint(record, 10); });
+  EXPECT_NE(shown.find(" 30 % waypoint 3 of 10: 5 objects found, 4 known, 9 observations, 12.3 s "
+                       "simulated"),
+            std::string::npos)
+      << shown;
 }
 
 }  // namespace

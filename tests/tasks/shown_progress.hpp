@@ -1,0 +1,46 @@
+/// What the progress of an episode looks like on a terminal.
+#pragma once
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+#include "vantage/core/log.hpp"
+
+namespace vantage::support {
+
+inline bool has_terminals() {
+  const int screen = ::posix_openpt(O_RDWR | O_NOCTTY);
+  if (screen >= 0) ::close(screen);
+  return screen >= 0;
+}
+
+/// @param step makes progress. It is shown every now and then, so that this may do it several times
+inline std::string shown_progress(const std::function<void()>& step) {
+  const int screen = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+  ::grantpt(screen);
+  ::unlockpt(screen);
+  const int terminal = ::open(::ptsname(screen), O_RDWR | O_NOCTTY);
+  winsize wide{};
+  wide.ws_col = 250;
+  ::ioctl(terminal, TIOCSWINSZ, &wide);
+  const int before = ::dup(STDERR_FILENO);
+  ::dup2(terminal, STDERR_FILENO);
+  set_verbosity(Verbosity::normal);
+  pollfd shown{screen, POLLIN, 0};
+  for (int i = 0; i < 1000 && ::poll(&shown, 1, 10) == 0; ++i) step();
+  set_verbosity(Verbosity::quiet);
+  ::dup2(before, STDERR_FILENO);
+  std::array<char, 512> text{};
+  const ssize_t size = ::read(screen, text.data(), text.size());
+  for (const int file : {before, terminal, screen}) ::close(file);
+  return {text.data(), size > 0 ? static_cast<std::size_t>(size) : 0U};
+}
+
+}  // namespace vantage::support
