@@ -254,8 +254,8 @@ void name_object(FoundPicture& picture) {
   if (picture.category.empty()) picture.category = stem;
   picture.category = fmt::format("{}", fmt::join(words_of(picture.category), "_"));
   const bool named_after = (stem + "_").starts_with(picture.category + "_");
-  picture.object = named_after ? stem + "_" + number
-                               : fmt::format("{}_{}_{}", picture.category, stem, number);
+  picture.object =
+      named_after ? stem + "_" + number : fmt::format("{}_{}_{}", picture.category, stem, number);
 }
 
 /// @throws InputError naming pictures of two objects that would get one name.
