@@ -130,6 +130,8 @@ std::vector<Finding> speed_findings(const Figures& figures) {
   constexpr const char* kPace =
       "a scan is 18 depth images of 640 x 480 pixels and 4.3 million cells: what is left is spread "
       "over belief, rendering, physics and driving, see the shares";
+  constexpr const char* kTablePace =
+      "half of it is the belief, see the shares; from run to run it differs by some 2 %";
   constexpr const char* kSteps =
       "a decision is a drive and a scan of 11 simulated seconds in full physics, at 47 times real "
       "time: no one part could go, see the shares in docs/python/environment.md";
@@ -140,7 +142,7 @@ std::vector<Finding> speed_findings(const Figures& figures) {
           at_least(figures, "decision", "spearman_min", 0.99),
           at_most(figures, "decision", "regret_max", 0.02),
           at_most(figures, "scaling", "exponent", 1.05),
-          at_least(figures, "episode", "tabletop_real_time_factor", 40.0),
+          at_least(figures, "episode", "tabletop_real_time_factor", 40.0, kTablePace),
           at_least(figures, "episode", "office_real_time_factor", 80.0, kPace),
           faster_than_octomap(figures),
           at_most(figures, "office", "sweep_ms", 150.0, kOffice),
