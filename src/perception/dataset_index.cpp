@@ -101,11 +101,11 @@ class Indexer {
       names.insert(entry.path().filename().string());
     }
     if (error) reject(folder, error.message());
+    const std::string category = folder.parent_path().filename().string();
     for (const std::string& name : names) {
       if (!name.ends_with(kCrop)) continue;
       auto parsed = parse_view_name(std::string_view(name).substr(0, name.size() - kCrop.size()));
       if (parsed) {
-        const std::string category = folder.parent_path().filename().string();
         if (parsed->object.starts_with(category + "_")) parsed->category = category;
         add_view(folder, *parsed, names);
       } else {

@@ -74,8 +74,7 @@ RecordTexts run_records() {
       {"metrics.json", "collisions", "contacts of the robot with something, counted as they begin"},
       {"metrics.json", "state_hash",
        "of the robot's every state and command; the same for the same episode. What it saw and "
-       "decided "
-       "is not in it: vantage compare tells"},
+       "decided is not in it: vantage compare tells"},
       {"metrics.json", "faults",
        "of the faults that are on (faults), how often each has struck: frames dropped or frozen; "
        "readings spoilt; lines of a laser with a bias; increments out of scale; stretches of slip; "

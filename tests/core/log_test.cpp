@@ -1,18 +1,15 @@
 #include "vantage/core/log.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <string>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/support/terminal.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 
@@ -84,34 +81,15 @@ TEST_F(Log, ProgressOfManyThingsIsNotManyLines) {
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 2) << text;
 }
 
-bool has_terminals() {
-  const int screen = ::posix_openpt(O_RDWR | O_NOCTTY);
-  if (screen >= 0) ::close(screen);
-  return screen >= 0;
-}
-
 /// What progress shows on a terminal.
 std::string shown_on_terminal() {
-  const int screen = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
-  ::grantpt(screen);
-  ::unlockpt(screen);
-  const int terminal = ::open(::ptsname(screen), O_RDWR | O_NOCTTY);
-  const int before = ::dup(STDERR_FILENO);
-  ::dup2(terminal, STDERR_FILENO);
-  {
-    Progress progress("scan", 1000.0);
-    pollfd shown{screen, POLLIN, 0};
-    for (int i = 1; i < 1000 && ::poll(&shown, 1, 10) == 0; ++i) progress.update(i);
-  }
-  ::dup2(before, STDERR_FILENO);
-  std::array<char, 256> text{};
-  const auto size = std::max<ssize_t>(0, ::read(screen, text.data(), text.size()));
-  for (const int file : {before, terminal, screen}) ::close(file);
-  return {text.data(), static_cast<std::size_t>(size)};
+  Progress progress("scan", 1000.0);
+  double done = 0.0;
+  return support::shown_progress([&] { progress.update(++done); }, 0);
 }
 
 TEST_F(Log, ProgressOnATerminalIsABarUnlessNoColorIsSet) {
-  if (!has_terminals()) GTEST_SKIP() << "no /dev/pts here";
+  if (!support::has_terminals()) GTEST_SKIP() << "no /dev/pts here";
   constexpr auto kErase = "\x1b[K";
   ::unsetenv("NO_COLOR");
   EXPECT_NE(shown_on_terminal().find(kErase), std::string::npos);

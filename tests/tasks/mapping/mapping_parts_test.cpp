@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/terminal.hpp"
 #include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/mapping/still_table.hpp"
-#include "tests/tasks/shown_progress.hpp"
 #include "vantage/planners/prediction_bands.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/report/report_data.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/support/temporary_directory.hpp"
-#include "tests/tasks/shown_progress.hpp"
+#include "tests/support/terminal.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/report/report_data.hpp"

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "tests/tasks/shown_progress.hpp"
+#include "tests/support/terminal.hpp"
 #include "tests/tasks/trajectory/noted_flight.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/tasks/trajectory/flight_layout.hpp"

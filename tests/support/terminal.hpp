@@ -1,4 +1,4 @@
-/// What the progress of an episode looks like on a terminal.
+/// What progress looks like on a terminal.
 #pragma once
 
 #include <fcntl.h>
@@ -22,14 +22,15 @@ inline bool has_terminals() {
 }
 
 /// @param step makes progress. It is shown every now and then, so that this may do it several times
-inline std::string shown_progress(const std::function<void()>& step) {
+/// @param columns of the terminal; 0: it does not tell
+inline std::string shown_progress(const std::function<void()>& step, unsigned short columns = 250) {
   const int screen = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
   ::grantpt(screen);
   ::unlockpt(screen);
   const int terminal = ::open(::ptsname(screen), O_RDWR | O_NOCTTY);
-  winsize wide{};
-  wide.ws_col = 250;
-  ::ioctl(terminal, TIOCSWINSZ, &wide);
+  winsize size{};
+  size.ws_col = columns;
+  ::ioctl(terminal, TIOCSWINSZ, &size);
   const int before = ::dup(STDERR_FILENO);
   ::dup2(terminal, STDERR_FILENO);
   set_verbosity(Verbosity::normal);
@@ -38,9 +39,9 @@ inline std::string shown_progress(const std::function<void()>& step) {
   set_verbosity(Verbosity::quiet);
   ::dup2(before, STDERR_FILENO);
   std::array<char, 512> text{};
-  const ssize_t size = ::read(screen, text.data(), text.size());
+  const ssize_t read = ::read(screen, text.data(), text.size());
   for (const int file : {before, terminal, screen}) ::close(file);
-  return {text.data(), size > 0 ? static_cast<std::size_t>(size) : 0U};
+  return {text.data(), read > 0 ? static_cast<std::size_t>(read) : 0U};
 }
 
 }  // namespace vantage::support
