@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <set>
 #include <string>
@@ -28,6 +29,18 @@ class ClutterScene : public testing::TestWithParam<ClutterSceneOptions> {
  protected:
   static fs::path folder() { return kCheckedInScenes / GetParam().name; }
 };
+
+class SteppedClutter : public ClutterScene {};
+
+/// Every one, as ./check models asks for it, or a few in which each level of clutter is.
+std::vector<ClutterSceneOptions> stepped_scenes() {
+  constexpr std::size_t kFew = 7;  // no multiple of the number of levels
+  const auto scenes = clutter_scenes();
+  const std::size_t step = std::getenv("VANTAGE_EVERY_SCENE") == nullptr ? kFew : 1;
+  std::vector<ClutterSceneOptions> stepped;
+  for (std::size_t i = 0; i < scenes.size(); i += step) stepped.push_back(scenes[i]);
+  return stepped;
+}
 
 TEST_P(ClutterScene, IsWhatTheToolWrites) {
   const support::TemporaryDirectory directory;
@@ -78,7 +91,7 @@ Model loosened(const fs::path& folder, const TableScene& scene) {
   return support::load_mjcf(directory / "scene.xml");
 }
 
-TEST_P(ClutterScene, ThingsDoNotOverlap) {
+TEST_P(SteppedClutter, ThingsDoNotOverlap) {
   const Model model = loosened(folder(), make_clutter_scene(GetParam()));
   ASSERT_NE(model, nullptr);
   const Data data(mj_makeData(model.get()), &mj_deleteData);
@@ -92,7 +105,7 @@ TEST_P(ClutterScene, ThingsDoNotOverlap) {
 }
 
 /// What tips, slides or rolls off does so in the first seconds.
-TEST_P(ClutterScene, StandsStably) {
+TEST_P(SteppedClutter, StandsStably) {
   const TableScene scene = make_clutter_scene(GetParam());
   const Model model = loosened(folder(), scene);
   ASSERT_NE(model, nullptr);
@@ -111,6 +124,8 @@ TEST_P(ClutterScene, StandsStably) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ClutterScene, testing::ValuesIn(clutter_scenes()),
+                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, SteppedClutter, testing::ValuesIn(stepped_scenes()),
                          [](const auto& info) { return info.param.name; });
 
 TEST(ClutterScenes, SetsShareLevelsButNoSeed) {
