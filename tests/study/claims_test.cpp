@@ -1,6 +1,7 @@
 // Claims on a shared folder: one holder at a time, and what is lost is taken over.
 #include "vantage/study/cluster/claims.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -18,6 +19,7 @@
 #include <thread>
 
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -91,6 +93,7 @@ TEST_F(Claims, HoldWhileTheirProcessLives) {
   ASSERT_TRUE(held);
   EXPECT_TRUE(held->in_force());
   expect_readable(folder_ / "1.json");
+  EXPECT_THAT(read_file(folder_ / "1.json"), testing::StartsWith("{\n  \"host\": \""));
   auto claim = claim_in_force(folder_);
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->worker.pid, ::getpid());
@@ -189,6 +192,7 @@ TEST_F(Claims, OfARequeuedTaskAreLostToItself) {
   self.slurm = SlurmPlace{"c", "12", "3", 2};
   EXPECT_FALSE(holder_lives(claim_of(elsewhere("3", 1)), self, {}));
   EXPECT_FALSE(holder_lives(claim_of(elsewhere("3", 1)), self, queue_of("RUNNING", 1)));
+  EXPECT_TRUE(holder_lives(claim_of(elsewhere("3", 2)), self, {})) << "of its run now";
   EXPECT_TRUE(holder_lives(claim_of(elsewhere("4", 1)), self, {})) << "of another task";
   self.slurm->cluster = "d";
   EXPECT_TRUE(holder_lives(claim_of(elsewhere("3", 1)), self, {})) << "of another cluster";
@@ -216,6 +220,117 @@ TEST_F(Claims, LeaveNoFileOpen) {
   held->release();
   EXPECT_FALSE(take_claim(folder_, 1, this_worker()));
   EXPECT_EQ(open_files(), before);
+}
+
+/// Of a worker on another machine, of which Slurm knows nothing.
+TEST_F(Claims, AreLostAfterFiveMinutesOfSilence) {
+  EXPECT_EQ(kHeartbeat_s, 15.0);
+  const auto lives = [](double age_s) {
+    Worker other = elsewhere("", 0);
+    other.slurm.reset();
+    return holder_lives(claim_of(other, age_s), this_worker(), {});
+  };
+  EXPECT_TRUE(lives(299.0));
+  EXPECT_FALSE(lives(300.0));
+}
+
+TEST_F(Claims, AreFilesCalledByANumber) {
+  fs::create_directories(folder_ / "8");
+  for (const char* other :
+       {"9.txt", "7x.json", "notes.json", "0.json", "-4.json", "99999999999.json"}) {
+    std::ofstream(folder_ / other) << "{}";
+  }
+  EXPECT_FALSE(claim_in_force(folder_));
+  ASSERT_TRUE(take_claim(folder_, 1, this_worker()));
+  EXPECT_EQ(claim_in_force(folder_)->number, 1);
+}
+
+TEST_F(Claims, WhoseFileIsGoneAreOfNobodyAndNew) {
+  fs::create_directories(folder_);
+  fs::create_symlink("nowhere", folder_ / "3.json");
+  const auto claim = claim_in_force(folder_);
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->number, 3);
+  EXPECT_EQ(claim->worker.host, "");
+  EXPECT_EQ(claim->worker.pid, 0);
+  EXPECT_FALSE(claim->released);
+  EXPECT_EQ(claim->age_s, 0.0);
+  EXPECT_EQ(Claim{}.number, 0);
+  EXPECT_EQ(Claim{}.age_s, 0.0);
+}
+
+TEST_F(Claims, OnAFullFileSystemAreErrors) {
+  if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "there is no /dev/full";
+  const Worker self = this_worker();
+  fs::create_directories(folder_);
+  fs::create_symlink("/dev/full", folder_ / (self.host + "-" + std::to_string(self.pid) + ".new"));
+  EXPECT_THROW(take_claim(folder_, 1, self), OutputError);
+}
+
+TEST_F(Claims, ThatCannotBeMadeSayWhy) {
+  const auto why = [&](const Worker& worker) {
+    try {
+      take_claim(folder_, 1, worker);
+    } catch (const OutputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  std::ofstream(directory_ / "attempts") << "no folder";
+  EXPECT_THAT(why(this_worker()), testing::HasSubstr("Not a directory"));
+  if (::access("/dev/shm", W_OK) != 0) return;
+  Worker worker = this_worker();  // that writes elsewhere first, as if there were no hard links
+  worker.host = "/dev/shm/" + directory_.path().filename().string();
+  EXPECT_THAT(why(worker), testing::HasSubstr("Not a directory"));
+  fs::remove(worker.host + "-" + std::to_string(worker.pid) + ".new");
+}
+
+/// Its time is that of the file system, which is a little behind.
+TEST_F(Claims, AgeSinceTheirLastSignOfLife) {
+  using Clock = fs::file_time_type::clock;
+  using namespace std::chrono_literals;
+  ASSERT_TRUE(take_claim(folder_, 1, this_worker()));
+  const auto expect_age = [&](std::chrono::milliseconds before) {
+    const auto then = Clock::now() - before;
+    fs::last_write_time(folder_ / "1.json", then);
+    const auto since = [&](Clock::time_point when) {
+      return std::chrono::duration<double>(when - then).count();
+    };
+    const double least_s = since(Clock::now());
+    const double age_s = claim_in_force(folder_)->age_s;
+    EXPECT_GE(age_s, least_s - 0.1);
+    EXPECT_LE(age_s, since(Clock::now()) + 0.1);
+  };
+  expect_age(400500ms);
+  expect_age(400250ms);
+  const Worker self = this_worker();
+  fs::create_directory(folder_ / (self.host + "-" + std::to_string(self.pid) + ".now"));
+  expect_age(400750ms);  // by the clock of the machine
+}
+
+TEST_F(Claims, NeedNoStandardInput) {
+  const auto expect_unused = [] { EXPECT_EQ(::fcntl(STDIN_FILENO, F_GETFD), -1); };
+  const int before = ::dup(STDIN_FILENO);
+  ::close(STDIN_FILENO);
+  const Worker self = this_worker();
+  EXPECT_NO_THROW(EXPECT_TRUE(take_claim(folder_, 1, self)));
+  expect_unused();
+  std::error_code error;
+  fs::last_write_time(folder_ / "1.json", fs::file_time_type::clock::now() - std::chrono::hours(1),
+                      error);
+  const auto claim = claim_in_force(folder_);
+  EXPECT_TRUE(claim && claim->age_s > kSilence_s);
+  expect_unused();
+  Worker elsewhere_first = self;
+  elsewhere_first.host = "/dev/shm/" + directory_.path().filename().string();
+  if (::access("/dev/shm", W_OK) == 0) {
+    EXPECT_NO_THROW(EXPECT_TRUE(take_claim(folder_, 2, elsewhere_first)));
+    expect_unused();
+  }
+  if (before >= 0) {
+    ::dup2(before, STDIN_FILENO);
+    ::close(before);
+  }
 }
 
 TEST(Workers, KnowTheirPlaceInSlurm) {

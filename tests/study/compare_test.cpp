@@ -190,6 +190,7 @@ TEST(ComparisonText, ListsWhatDiffersBeyondTheTolerance) {
                            "90.0  -10 (10 %)\n! extra" + gap(39 + 1 + 23) + "-" + gap(1 + 23) +
                            "1\n";
   const std::string all = comparison_text(comparison, true);
+  EXPECT_EQ(all.substr(0, all.find('\n')), gap(11) + "one" + gap(9) + "two  difference");
   EXPECT_EQ(all.substr(all.find('\n') + 1), rows + "2 of 3 values differ beyond the tolerance\n");
   const std::string few = comparison_text(comparison);
   EXPECT_EQ(few.substr(few.find('\n') + 1),
@@ -197,6 +198,34 @@ TEST(ComparisonText, ListsWhatDiffersBeyondTheTolerance) {
   comparison.beyond = 0;
   const std::string none = comparison_text(comparison);
   EXPECT_EQ(none.substr(none.find('\n') + 1), "0 of 3 values differ beyond the tolerance\n");
+}
+
+TEST_F(Compare, ListsAreHeldAgainstEachOtherItemByItem) {
+  const auto scans = [](int second) -> Json {
+    return {{"scans", {{{"unobserved_cells", 100}}, {{"unobserved_cells", second}}}}};
+  };
+  const FolderComparison comparison =
+      compare_folders(run("a", scans(90)), run("b", scans(81)), 0.0);
+  EXPECT_EQ(comparison.beyond, 1U);
+  const Json values = comparison_json(comparison, 0.0)["values"];
+  EXPECT_EQ(values["scans[0].unobserved_cells"]["difference"], 0.0);
+  EXPECT_EQ(values["scans[1].unobserved_cells"]["difference"], -9.0);
+  EXPECT_EQ(values["scans[1].unobserved_cells"]["relative"], 0.1);
+  EXPECT_EQ(values["method"]["difference"], 0.0) << "of texts there is none";
+}
+
+TEST_F(Compare, ATextIsNoNumberUnderAnyTolerance) {
+  const auto first = run("a", {});
+  const auto odd = run("b", {{"method", 5}});
+  EXPECT_EQ(compare_folders(first, odd, 0.5).beyond, 1U);
+  EXPECT_EQ(compare_folders(odd, first, 0.5).beyond, 1U);
+}
+
+TEST(ComparisonText, IsOfNothingUnlessTold) {
+  EXPECT_EQ(ComparedValue{}.difference, 0.0);
+  EXPECT_EQ(ComparedValue{}.relative, 0.0);
+  EXPECT_FALSE(ComparedValue{}.beyond);
+  EXPECT_EQ(FolderComparison{}.beyond, 0U);
 }
 
 }  // namespace

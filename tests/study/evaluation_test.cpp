@@ -12,6 +12,7 @@
 #include "vantage/report/report_data.hpp"
 #include "vantage/study/collect.hpp"
 #include "vantage/study/results_csv.hpp"
+#include "vantage/study/study_page.hpp"
 
 namespace vantage {
 namespace {
@@ -317,40 +318,6 @@ TEST_F(Evaluated, WhatFailedIsMeasuredAndWhatDivergedIsNot) {
   }
 }
 
-/// Of the first seed alone; of what was not run there is none.
-TEST(StudyFlights, AreDrawnOnceAMethod) {
-  const support::TemporaryDirectory folder;
-  write_file(folder / "study.yaml",
-             "episode: assets/episodes/trajectory.yaml\n"
-             "factors: {method: {a: {horizon: 5}, b: {horizon: 6}, c: {horizon: 7}}}\n"
-             "seeds: [1, 2]\n");
-  StudyResults results;
-  results.study = read_study(folder / "study.yaml");
-  results.directory = folder.path();
-  results.plan = plan_study(results.study);
-  results.states.assign(6, EpisodeState::missing);
-  results.measures.resize(6);
-  const Json flight = {{"path", {{-1.0, 0.0, 1.8, 0.0}, {1.0, 0.0, 1.8, 0.0}}},
-                       {"plan", {{-1.0, 0.0, 1.8, 0.0}, {1.0, 0.5, 1.8, 0.0}}},
-                       {"objects", Json::array()}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    results.states[i] = EpisodeState::completed;
-    results.measures[i].emplace().scalars.resize(scalar_measures().size());
-    const fs::path run = episode_folder(folder.path(), results.plan[i]);
-    fs::create_directories(run);
-    write_file(run / "metrics.json", flight.dump());
-  }
-  write_collection(results, {});
-  std::vector<std::string> drawn;
-  for (const auto& entry : fs::directory_iterator(folder / "figures")) {
-    drawn.push_back(entry.path().filename().string());
-  }
-  EXPECT_THAT(drawn, testing::UnorderedElementsAre("a-1.svg", "b-1.svg"));
-  const std::string svg = read_file(folder / "figures/a-1.svg");
-  EXPECT_THAT(svg, HasSubstr(">a/1</text>"));
-  EXPECT_THAT(svg, HasSubstr("<polygon points=")) << "the walls of its scene";
-}
-
 /// Then `path_length_m` of a scan was the length of its leg.
 TEST_F(Evaluated, MetricsOfAFormerVersionMeanWhatTheySaid) {
   write_file(episode_folder(folder_.path(), results_.plan[1]) / "metrics.json",
@@ -372,6 +339,122 @@ TEST_F(Evaluated, AFileThatHoldsSomethingOfAnotherKindIsNamed) {
       EXPECT_THAT(error.what(),
                   testing::StartsWith(folder.string() + ": metrics.json or manifest.json: "));
     }
+  }
+}
+
+/// What comes after it counts all the same.
+TEST_F(Evaluated, WhatIsMissingHidesNothing) {
+  results_.measures[0].reset();
+  const Evaluation evaluation = evaluate(results_);
+  ASSERT_EQ(evaluation.comparisons.size(), 2U);
+  ASSERT_EQ(evaluation.comparisons[0].rows.size(), 4U);
+  EXPECT_EQ(evaluation.comparisons[0].rows[0].level, "simple");
+  ASSERT_EQ(evaluation.figures[0].panels[0].series.size(), 1U);
+  EXPECT_EQ(evaluation.figures[0].panels[0].series[0].name, "simple");
+  EXPECT_EQ(field(table(results_csv(results_)), 1, "prediction_error_simple_cells"), "7.5");
+  EXPECT_EQ(table(timings_csv(results_)).rows.size(), 2U);
+}
+
+/// Of two starts: a curve that has ended keeps its last value, but nothing is predicted after it.
+TEST_F(Evaluated, CurvesOfOnePanelAreAveraged) {
+  results_.study.report.panels.clear();
+  put(0, 3.0, {0.9, 0.7}, {{"simple", {100.0}}, {"other", {1.0}}});
+  put(3, 2.0, {0.5}, {{"adaptive", {4.0, 8.0}}});
+  const Evaluation evaluation = evaluate(results_);
+  const std::vector<FigurePoint>& random = evaluation.figures[0].panels.at(0).series.at(0).points;
+  ASSERT_EQ(random.size(), 2U);
+  EXPECT_EQ(random[1].count, 2U);
+  EXPECT_DOUBLE_EQ(random[1].mean, 0.65);
+  const Comparison& errors = evaluation.comparisons.at(1);
+  ASSERT_EQ(errors.rows.size(), 2U) << "what is predicted along another method is left out";
+  EXPECT_DOUBLE_EQ(errors.rows[0].mean, 7.5);
+  EXPECT_EQ(errors.rows[1].level, "adaptive");
+  EXPECT_EQ(errors.rows[1].count, 2U);
+  EXPECT_DOUBLE_EQ(errors.rows[1].mean, 4.0);
+  const std::vector<FigurePoint>& adaptive = evaluation.figures[1].panels.at(0).series.at(1).points;
+  ASSERT_EQ(adaptive.size(), 2U);
+  EXPECT_EQ(adaptive[1].count, 1U);
+  EXPECT_EQ(adaptive[1].mean, 8.0);
+}
+
+TEST_F(Evaluated, PredictorsMayBeThoseOfTheFirstEpisodeAlone) {
+  results_.study.report.predictors_along = "random";
+  put(0, 3.0, {0.9, 0.7}, {{"simple", {3.0}}});
+  const Evaluation evaluation = evaluate(results_);
+  ASSERT_EQ(evaluation.comparisons.size(), 2U);
+  ASSERT_FALSE(evaluation.comparisons[1].rows.empty());
+  EXPECT_EQ(evaluation.comparisons[1].rows[0].panel, "near");
+  EXPECT_EQ(evaluation.comparisons[1].rows[0].mean, 3.0);
+}
+
+TEST_F(Evaluated, WhatIsAlikeIsSaidOfTablesAndPredictors) {
+  results_.study.report.cluster = "start";
+  const Evaluation evaluation = evaluate(results_);
+  EXPECT_EQ(evaluation.comparisons[0].cluster, "start");
+  EXPECT_EQ(evaluation.comparisons[1].cluster, "start");
+  EXPECT_EQ(evaluation.comparisons[1].better, Better::lower);
+  EXPECT_THAT(evaluation.figures[1].note, HasSubstr("resampled by start."));
+}
+
+TEST_F(Evaluated, StepsAreCalledAsThoseOfTheFirstEpisode) {
+  results_.plan.back().resolved.task = RecognitionTask{};
+  EXPECT_EQ(evaluate(results_).figures[0].x_label, "scans");
+}
+
+TEST_F(Evaluated, VerdictsAreTheItemsOfOneList) {
+  Evaluation evaluation = evaluate(results_);
+  evaluation.comparisons.push_back(Comparison(evaluation.comparisons[0]));
+  const std::string item = "- simple against random: area -1.5, no interval (1 pair)\n";
+  EXPECT_THAT(study_summary(results_, evaluation), testing::EndsWith("\n\n" + item + item));
+}
+
+TEST_F(Evaluated, ACollectionThatCannotBeWrittenLeavesNothingBehind) {
+  write_file(folder_ / "tables", "no folder");
+  EXPECT_THROW(write_collection(results_, evaluate(results_)), OutputError);
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".collection")) << entry.path();
+  }
+}
+
+TEST_F(Evaluated, TheFirstEpisodeIsReadAsTheOthers) {
+  const PlannedEpisode& episode = results_.plan[0];
+  const fs::path folder = episode_folder(folder_.path(), episode);
+  write_file(folder / "config.yaml", episode_yaml(episode.resolved));
+  write_file(folder / "manifest.json", manifest_of_files(episode.resolved));
+  Json metrics = {{"status", "completed"},
+                  {"method", "random"},
+                  {"observable_cells", 100.0},
+                  {"path_length_m", 1.5},
+                  {"collisions", 0},
+                  {"simulated_time_s", 60.0},
+                  {"scans", Json::array({one_scan()})}};
+  metrics["map"] = {{"precision", 0.9}, {"recall", 0.8}};
+  write_file(folder / "metrics.json", metrics.dump());
+  EXPECT_TRUE(read_study_results(folder_.path()).measures.at(0));
+}
+
+TEST_F(Evaluated, TimesAndMachinesThatAreNotToldAreNone) {
+  const fs::path folder = episode_folder(folder_.path(), results_.plan[1]);
+  write_file(folder / "metrics.json", R"({"scans": [{}]})");
+  fs::remove(folder / "manifest.json");
+  const CsvTable csv = table(timings_csv(results_));
+  for (const char* none :
+       {"wall_time_s", "real_time_factor", "plan_time_s", "map_time_s", "threads"}) {
+    EXPECT_EQ(field(csv, 1, none), "0") << none;
+  }
+  EXPECT_EQ(field(csv, 1, "cpu"), "");
+}
+
+TEST_F(Evaluated, APageHoldsStatusVerdictsFiguresAndTables) {
+  write_study_page(results_, evaluate(results_));
+  const std::string page = read_file(folder_ / "report.html");
+  for (const char* part :
+       {"2 completed, 1 failed, 1 missing of 4 episodes",
+        "<ul>\n<li>simple against random: area -1.5, no interval (1 pair)</li>\n</ul>\n",
+        "<section class=\"panel figure\">\n<svg ",
+        "<details><summary>absolute prediction error, cells, along the episodes of simple, "
+        "lower is better</summary>\n"}) {
+    EXPECT_THAT(page, HasSubstr(part));
   }
 }
 

@@ -114,6 +114,9 @@ TEST_F(Results, AStatusTellsWhatEachEpisodeThatIsNotCompletedIsAt) {
   EXPECT_EQ(status_text(study_.path(), plan, states, activities),
             "1 completed, 1 running, 1 queued, 1 missing of 4 episodes\nqueued      a\n"
             "running     c: on n1\nmissing     d\n");
+  EXPECT_EQ(status_text(study_.path(), {plan[0], plan[1]},
+                        {EpisodeState::diverged, EpisodeState::missing}, {{}, {"running", ""}}),
+            "1 running, 1 diverged of 2 episodes\ndiverged    a\nrunning     b\n");
   const auto json = status_json(study_.path(), plan, states, activities);
   EXPECT_EQ(json["directory"], study_.path().string());
   EXPECT_EQ(json["episodes"], 4);
@@ -133,6 +136,8 @@ TEST_F(Results, AStatusThatIsNoneIsStale) {
   EXPECT_EQ(state(), EpisodeState::stale);
   write("metrics.json", R"({"status": "failed"})");
   EXPECT_EQ(state(), EpisodeState::failed);
+  write("metrics.json", "{}");
+  EXPECT_EQ(state(), EpisodeState::missing);
   write("metrics.json", R"({"status": 5})");
   EXPECT_EQ(state(), EpisodeState::missing);
 }

@@ -338,7 +338,7 @@ TEST_F(StudyFile, ShardsAreAPartition) {
     }
   }
   EXPECT_THAT(merged, testing::UnorderedElementsAreArray(all));
-  for (const char* wrong : {"", "1", "0/3", "4/3", "1/0", "1/3x", "-1/3", "a/b"}) {
+  for (const char* wrong : {"", "1", "0/3", "4/3", "1/0", "1/3x", "1x3", "1/", "-1/3", "a/b"}) {
     EXPECT_THROW(parse_shard(wrong), ConfigError) << wrong;
   }
 }

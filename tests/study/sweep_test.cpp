@@ -157,6 +157,8 @@ report: {compare: scene, reference: table, tables: [area], curves: [share_left]}
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.output, HasSubstr("1 completed, 1 crashed of 2"));
   EXPECT_THAT(result.output, HasSubstr("no table"));
+  EXPECT_THAT(result.output, HasSubstr("bare: exit code 3; see f/episodes/bare/output.txt"));
+  EXPECT_THAT(result.output, Not(HasSubstr("table: exit code")));
   EXPECT_TRUE(fs::exists(folder_ / "f/episodes/bare/failure.json"));
   EXPECT_THAT(read_file(folder_ / "f/episodes/bare/output.txt"), HasSubstr("no table"));
   EXPECT_EQ(vantage("sweep collect f").exit_code, 1);
@@ -181,7 +183,8 @@ TEST_F(Sweep, FoldersOfEpisodesAreLean) {
                            "trajectory.tum", "trajectory_estimated.tum"}) {
     EXPECT_TRUE(fs::exists(folder / name)) << name;
   }
-  for (const char* name : {"states.bin", "map.bt", "map.ot", "cloud.ply", "report.html"}) {
+  for (const char* name : {"states.bin", "map.bt", "map.ot", "cloud.ply", "report.html",
+                           "output.txt", "failure.json"}) {
     EXPECT_FALSE(fs::exists(folder / name)) << name;
   }
   // In full, the same episode is the same.
@@ -254,7 +257,7 @@ set:
   laser.scan_duration_s: 1
   map.cells: [33, 33, 17]
   choice: {name: oracle_lookahead, width: 20000}
-seeds: [1]
+seeds: [1, 2]
 )");
   const ShellResult stopped =
       shell("cd '" + folder_.path().string() +
@@ -268,7 +271,8 @@ seeds: [1]
             "wait $sweep");
   EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
   EXPECT_THAT(stopped.output, Not(HasSubstr("too often"))) << "one in 15 s is enough";
-  EXPECT_THAT(vantage("sweep status slow").output, HasSubstr("1 interrupted of 1"));
+  EXPECT_THAT(vantage("sweep status slow").output, HasSubstr("1 interrupted, 1 missing of 2"))
+      << "nothing else was begun";
 }
 
 TEST_F(Sweep, WhatAnotherWorkerIsAtIsLeftToIt) {

@@ -20,9 +20,10 @@ namespace {
   ::setpgid(0, 0);  // Ctrl-C reaches the sweep, which passes it on
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it ended before the line above
+  const int kept = ::fcntl(output, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);  // of a service it may be 0
   ::close(STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
+  ::dup2(kept, STDOUT_FILENO);
+  ::dup2(kept, STDERR_FILENO);
   ::execv("/proc/self/exe", arguments);
   ::_exit(127);
 }

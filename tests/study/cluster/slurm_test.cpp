@@ -1,12 +1,23 @@
 // What is read of Slurm and said of it, without Slurm.
 #include "vantage/study/cluster/slurm.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <array>
+#include <csignal>
+#include <cstdint>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <sstream>
 
+#include "tests/support/shell.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
@@ -37,6 +48,10 @@ TEST(SlurmTasks, AreReadOfTheLinesOfSqueue) {
   EXPECT_EQ(tasks[1].reason, "Priority");
   EXPECT_EQ(tasks[1].restart, 0);
   EXPECT_EQ(tasks[1].node, "");
+  const std::vector<SlurmTask> bare = parse_slurm_tasks("14||COMPLETED||N/A||\n");
+  ASSERT_EQ(bare.size(), 1U) << "its state is enough";
+  EXPECT_EQ(bare[0].restart, 0);
+  EXPECT_EQ(SlurmTask{}.restart, 0);
 }
 
 TEST(SlurmTasks, AreAtWorkOrWaitOrAreLost) {
@@ -97,9 +112,102 @@ TEST(Programs, EndWithTheirCodeAndWhatTheySaid) {
   EXPECT_EQ(end->output, "out\n");
   EXPECT_EQ(end->errors, "err\n");
   EXPECT_EQ(run_program({"sh", "-c", "kill -KILL $$"})->exit_code, 128 + 9);
-  EXPECT_EQ(run_program({"cat"})->output, "") << "its input is empty";
+  EXPECT_EQ(run_program({"printf", "x"})->output, "x");
   EXPECT_EQ(run_program({"sh", "-c", "head -c 10000 /dev/zero"})->output, std::string(10000, '\0'));
   EXPECT_FALSE(run_program({"no_such_program_zz"}));
+}
+
+TEST(Programs, HaveAnEmptyInput) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "input", "of this program alone");
+  const int before = ::dup(STDIN_FILENO);
+  const int file = ::open((folder / "input").c_str(), O_RDONLY);
+  ::dup2(file, STDIN_FILENO);
+  ::close(file);
+  EXPECT_EQ(run_program({"cat"})->output, "");
+  ::close(STDIN_FILENO);
+  if (before >= 0) {
+    ::dup2(before, STDIN_FILENO);
+    ::close(before);
+  }
+}
+
+/// What is said is kept in files that are deleted, of which a program has its own two beside those
+/// that every program has which is started from here.
+TEST(Programs, HaveNoFileBesideTheirOwn) {
+  const auto deleted = [](const std::string& files) {
+    std::size_t count = 0;
+    for (auto at = files.find("(deleted)"); at != std::string::npos;
+         at = files.find("(deleted)", at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  const auto end = run_program({"ls", "-l", "/proc/self/fd"});
+  ASSERT_TRUE(end);
+  const std::string any = support::shell("ls -l /proc/self/fd < /dev/null").output;
+  EXPECT_EQ(deleted(end->output), 2U + deleted(any)) << end->output;
+}
+
+/// Memory that was used before is taken again, with what is left in it.
+TEST(Programs, HaveNoArgumentBeyondTheirLast) {
+  std::vector<std::string> arguments{"sh", "-c", "echo $#", "sh"};
+  arguments.resize(39, "x");
+  for (int i = 0; i < 8; ++i) {
+    const auto used = std::make_unique<volatile std::uintptr_t[]>(arguments.size() + 1);
+    for (std::size_t k = 0; k <= arguments.size(); ++k) used[k] = UINTPTR_MAX;
+  }
+  EXPECT_EQ(run_program(arguments)->output, "35\n");
+}
+
+/// The signal comes while the program is waited for.
+TEST(Programs, AreWaitedForThroughSignals) {
+  struct sigaction ignore {};
+  struct sigaction before {};
+  ignore.sa_handler = [](int) {};  // without SA_RESTART
+  ::sigaction(SIGUSR1, &ignore, &before);
+  const auto end = run_program({"sh", "-c", "kill -USR1 $PPID; kill -USR1 $PPID; exit 3"});
+  ::sigaction(SIGUSR1, &before, nullptr);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->exit_code, 3);
+}
+
+TEST(Programs, NeedAFileForWhatTheySay) {
+  struct rlimit before {};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  struct rlimit none = before;
+  none.rlim_cur = 0;
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  std::string why;
+  try {
+    static_cast<void>(run_program({"true"}));
+  } catch (const OutputError& error) {
+    why = error.what();
+  }
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  EXPECT_THAT(why, testing::StartsWith("no temporary file: "));
+  EXPECT_EQ(ProgramEnd{}.exit_code, 0);
+}
+
+/// The 22nd field is the time when a process began; the second, in brackets, is its name.
+TEST(Workers, AreProcessesOfAMachine) {
+  const Worker self = this_worker();
+  std::array<char, 256> name{};
+  ASSERT_EQ(::gethostname(name.data(), name.size() - 1), 0);
+  const char* node = std::getenv("SLURMD_NODENAME");
+  EXPECT_EQ(self.host, node == nullptr ? name.data() : node);
+  std::string boot;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
+  EXPECT_EQ(self.machine, self.host + " " + boot + " " +
+                              std::filesystem::read_symlink("/proc/self/ns/pid").string());
+  EXPECT_EQ(self.pid, ::getpid());
+  std::ifstream file("/proc/self/stat");
+  std::string line;
+  std::getline(file, line);
+  std::istringstream fields(line.substr(line.rfind(')') + 1));
+  const std::vector<std::string> found{std::istream_iterator<std::string>(fields), {}};
+  EXPECT_EQ(self.started, found.at(22 - 3));
+  EXPECT_EQ(Worker{}.pid, 0);
 }
 
 /// Of an array of five tasks, of its collection, and of an array that Slurm has forgotten.
@@ -123,6 +231,9 @@ TEST(Submissions, AreToldALineAJob) {
   SlurmQueue silent = queue_of_submitted();
   silent.silence = "no route";
   EXPECT_EQ(submissions_text(kSubmitted, silent), "Slurm does not answer: no route\n");
+  EXPECT_EQ(submissions_text({}, silent), "");
+  EXPECT_EQ(submissions_text({{"20", "", 2}, {"13", "21", 1}}, queue_of_submitted()),
+            "array 20: 2 ended\narray 13: 1 ended\ncollect 21: 1 ended\n");
 }
 
 TEST(Submissions, AreToldAsJson) {
@@ -162,7 +273,9 @@ TEST(Submissions, AreReadOldestFirst) {
   EXPECT_TRUE(read_submissions(study.path()).empty());
   write_file(study / "slurm/10.json", R"({"array": "10", "collect": "11", "tasks": 3})");
   write_file(study / "slurm/9.json", R"({"array": "9", "collect": "", "tasks": 4})");
-  write_file(study / "slurm/work.sh", "no record");
+  for (const char* other : {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"}) {
+    write_file(study / "slurm" / (std::string(other) + ".sh"), "no record");
+  }
   const std::vector<Submission> found = read_submissions(study.path());
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].array, "9");
@@ -187,12 +300,20 @@ TEST(Submissions, ArgumentsOfSbatchAreOptionsThatSubmitDoesNotSet) {
         "--output=x", "--wrap", "--parsable", "--open-mode=append"}) {
     EXPECT_THROW(check_sbatch_arguments({"--mem=2G", wrong}), ConfigError) << wrong;
   }
-  try {
-    check_sbatch_arguments({"--dependency=afterany:1"});
-    ADD_FAILURE() << "no error";
-  } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(),
-                 "--sbatch-arg --dependency=afterany:1: submit sets --dependency itself");
+  const auto refusal = [](const char* argument) {
+    try {
+      check_sbatch_arguments({argument});
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(refusal("--dependency=afterany:1"),
+            "--sbatch-arg --dependency=afterany:1: submit sets --dependency itself");
+  for (const std::string array : {"--array", "-a"}) {
+    const std::string argument = array + "=3";
+    EXPECT_EQ(refusal(argument.c_str()), "--sbatch-arg " + argument + ": submit sets " + array +
+                                             " itself; --array N is the number of tasks");
   }
 }
 
@@ -263,6 +384,8 @@ TEST_F(AskedSlurm, NamesTheJobThatItTakesOrSaysWhyNot) {
   EXPECT_NO_THROW(require_slurm());
   EXPECT_EQ(submit_batch({"--wait", "a.sh"}), "12");
   EXPECT_EQ(read_file(asked()), "--parsable\n--wait\na.sh\n");
+  program("sbatch", "echo 9051");
+  EXPECT_EQ(submit_batch({"a.sh"}), "9051");
   program("sbatch", "echo maybe");
   EXPECT_EQ(refusal(), "sbatch --parsable a.sh: no job id but 'maybe'");
   program("sbatch", "");
@@ -302,6 +425,23 @@ TEST(EpisodeActivities, SayWhereAndHowOftenTheyBegan) {
   EXPECT_EQ(found[4].state, "queued");
   EXPECT_EQ(found[4].reason, "");
   EXPECT_EQ(activities({{"11", "12", 3}})[4].state, "") << "what collects runs no episode";
+}
+
+/// Those of others that began are told all the same.
+TEST(EpisodeActivities, AreNoneOfWhatHasAResult) {
+  const support::TemporaryDirectory study;
+  const std::vector<PlannedEpisode> plan{{"a", {}, {}}, {"b", {}, {}}, {"c", {}, {}}};
+  const Worker self = this_worker();
+  for (const PlannedEpisode& episode : plan) {
+    ASSERT_TRUE(take_claim(claims_folder(study.path(), episode), 1, self));
+  }
+  const SlurmQueue queue{{"12"}, {{"12", "0", "PENDING", "", 0, ""}}, {}};
+  const std::vector<EpisodeActivity> found = episode_activities(
+      study.path(), plan, {EpisodeState::completed, EpisodeState::failed, EpisodeState::missing},
+      {{"12", "", 1}}, queue);
+  EXPECT_EQ(found.at(0).state, "");
+  EXPECT_EQ(found.at(1).state, "");
+  EXPECT_EQ(found.at(2).state, "running");
 }
 
 }  // namespace

@@ -119,6 +119,8 @@ TEST(FigurePlaces, OfLegendsAreInOrderOfStyles) {
 /// The axis of y begins at 0 unless all is above 0.35 of the top.
 TEST(FigureAxes, ShowZeroWhereItIsNear) {
   EXPECT_THAT(svg_between(3.0, 10.0), HasSubstr(label_at(339.0, "0")));
+  EXPECT_THAT(svg_between(0.3, 1.0), HasSubstr(label_at(339.0, "0")));
+  EXPECT_THAT(svg_between(3.5, 10.0), HasSubstr(label_at(339.0, "2"))) << "0.35 is not below";
   EXPECT_THAT(svg_between(4.0, 10.0), HasSubstr(label_at(339.0, "4")));
   EXPECT_THAT(svg_between(-4.0, 10.0), HasSubstr(label_at(339.0, "-5")));
 }
@@ -132,6 +134,8 @@ TEST(FigureAxes, TickLabelsAreShort) {
     }
   };
   labels(8.0, {"0", "2", "4", "6", "8"});
+  labels(1.0, {"0", "0.2", "0.4", "0.6", "0.8", "1"});
+  labels(5.0, {"0", "1", "2", "3", "4", "5"});
   labels(4.5, {"0", "1", "2", "3", "4", "5"});
   labels(22.0, {"0", "5", "10", "15", "20", "25"});
   labels(8000.0, {"0", "2000", "4000", "6000", "8000"});
@@ -169,6 +173,8 @@ TEST(FigurePlaces, PanelsWithoutPointsAreNotRun) {
   Figure figure = drawn_figure();
   EXPECT_THAT(figure_svg(figure), Not(HasSubstr("not run")));
   figure.panels[0].series = {{"a", 0, {}}};
+  EXPECT_THAT(figure_svg(figure), HasSubstr("<text x=\"261.0\" y=\"215.0\" text-anchor=\"middle\" "
+                                            "font-size=\"12\">not run<"));
   EXPECT_THAT(figure_svg(figure),
               AllOf(HasSubstr(">not run<"), HasSubstr(">left<"), Not(HasSubstr(">scans<"))));
 }
@@ -218,6 +224,83 @@ TEST(FigurePlaces, OfLegendsAreOfEveryPanel) {
     EXPECT_THAT(svg, HasSubstr(mark));
   }
   EXPECT_EQ(svg.find(">a</text>"), svg.rfind(">a</text>")) << "once";
+}
+
+TEST(FigureAxes, OfASingleValueIsAUnitHigh) {
+  EXPECT_THAT(svg_between(4.0, 4.0),
+              AllOf(HasSubstr(label_at(339.0, "4")), HasSubstr(">4.2</text>"),
+                    HasSubstr(label_at(91.0, "5"))));
+}
+
+/// What is close together keeps its digits.
+TEST(FigureAxes, TickLabelsAreShortWhereTheStepsAreLong) {
+  struct LabelledRange {
+    double low, high;
+    const char* label;
+  };
+  for (const auto& [low, high, label] :
+       {LabelledRange{10000.0, 10500.0, "10.1 k"}, LabelledRange{10000.0, 10250.0, "10050"},
+        LabelledRange{0.0, 1000000.0, "0.2 M"}, LabelledRange{1000000.0, 1020000.0, "1005 k"},
+        LabelledRange{1000000.0, 1050000.0, "1.01 M"}}) {
+    EXPECT_THAT(svg_between(low, high), HasSubstr(fmt::format(">{}</text>", label)));
+  }
+}
+
+/// Of 21 scans every second one has a tick; the first stands on the axis, the last at its end.
+TEST(FigureAxes, CurvesReachFromEndToEnd) {
+  Figure figure = drawn_figure();
+  figure.panels[0].series = {{"s", 0, {}}};
+  for (int i = 1; i <= 21; ++i) {
+    figure.panels[0].series[0].points.push_back({1.0 * i, 2, 2, 1.0, {0.0, 10.0}});
+  }
+  const std::string svg = figure_svg(figure);
+  EXPECT_THAT(svg, AllOf(HasSubstr("<path d=\"M66.0 314.2L85.5 314.2L"),
+                         HasSubstr("L456.0 314.2\" fill=\"none\"")));
+  const auto has_tick = [&](int scan) {
+    const std::string tick =
+        fmt::format("y=\"357.0\" text-anchor=\"middle\" font-size=\"12\">{}</text>", scan);
+    return svg.find(tick) != svg.npos;
+  };
+  for (int scan = 0; scan <= 22; ++scan) {
+    EXPECT_EQ(has_tick(scan), scan % 2 == 0 && scan >= 2 && scan <= 20) << scan;
+  }
+}
+
+TEST(FigurePlaces, TextIsPressedIntoItsRoom) {
+  Figure figure = drawn_figure();
+  const std::string wide(80, 'n');
+  figure.x_label = figure.y_label = figure.panels[0].title = wide;
+  figure.panels[0].series[1].name = wide;
+  const std::string svg = figure_svg(figure);
+  for (const char* part :
+       {"font-size=\"13.5\" font-weight=\"650\" fill=\"#16202e\" textLength=\"390\"",
+        "y=\"377.0\" text-anchor=\"middle\" font-size=\"12\" textLength=\"390\"",
+        "<text x=\"14.0\" y=\"215.0\" text-anchor=\"middle\" font-size=\"12\" textLength=\"310\"",
+        "font-size=\"12\" fill=\"#16202e\" textLength=\"384\""}) {
+    EXPECT_THAT(svg, HasSubstr(part));
+  }
+  EXPECT_THAT(svg_between(12345678.0, 12345688.0),
+              HasSubstr("text-anchor=\"end\" font-size=\"12\" textLength=\"56\""));
+}
+
+/// 406 px hold 39 bold letters of 16 px.
+TEST(FigurePlaces, TitlesAreBrokenWithinTheImage) {
+  const std::string first(19, 'a');
+  const auto is_broken = [&](std::size_t letters) {
+    Figure figure = drawn_figure();
+    figure.title = first + " " + std::string(letters, 'b');
+    return figure_svg(figure).find(">" + first + "<") != std::string::npos;
+  };
+  EXPECT_FALSE(is_broken(19));
+  EXPECT_TRUE(is_broken(20));
+}
+
+/// Of 24 letters 223.6 px: no two in 420 px.
+TEST(FigurePlaces, OfLegendsWithLongNamesAreBelowEachOther) {
+  Figure figure = drawn_figure();
+  for (FigureSeries& series : figure.panels[0].series) series.name = std::string(24, 'n');
+  EXPECT_THAT(figure_svg(figure), AllOf(HasSubstr("<path d=\"M66.0 403.0h22\""),
+                                        HasSubstr("<path d=\"M66.0 427.0h22\"")));
 }
 
 }  // namespace

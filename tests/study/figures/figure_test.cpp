@@ -1,12 +1,15 @@
 // Curves against scans, and their image.
 #include "vantage/study/figures/figure.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 
+#include "vantage/information/resampling.hpp"
 #include "vantage/study/tables/text_table.hpp"
 
 namespace vantage {
@@ -22,6 +25,7 @@ TEST(MeanSeries, EndedCurvesKeepTheirLastValue) {
   ASSERT_EQ(series.points.size(), 3U);
   EXPECT_EQ(series.points[0].x, 1.0);
   EXPECT_DOUBLE_EQ(series.points[0].mean, 6.0);
+  EXPECT_EQ(series.points[2].x, 3.0);
   EXPECT_DOUBLE_EQ(series.points[2].mean, 3.0);
   EXPECT_EQ(series.points[2].count, 2U);
 }
@@ -128,6 +132,46 @@ TEST(FigurePoints, AreOfNothingUnlessTold) {
   EXPECT_EQ(point.count, 0U);
   EXPECT_EQ(point.clusters, 0U);
   EXPECT_EQ(point.mean, 0.0);
+  EXPECT_EQ(FigureSeries{}.style, 0U);
+  EXPECT_EQ(Figure{}.least_x_step, 1.0);
+}
+
+TEST(MeanSeries, OfNoCurvesHasNoPoints) {
+  const std::vector<std::vector<double>> none;
+  EXPECT_THAT(mean_series({}, "p", "s", 0, {none, kApart}, {}, true).points, testing::IsEmpty());
+  const std::vector<std::vector<double>> ended{{}, {}};
+  EXPECT_THAT(mean_series({}, "p", "s", 0, {ended, kApart}, {}, true).points, testing::IsEmpty());
+}
+
+/// By the seed 1, so that a figure is the same whenever it is drawn.
+TEST(MeanSeries, IntervalsAreDrawnByTheNameOfTheirPoint) {
+  std::vector<std::vector<double>> curves;
+  std::vector<std::size_t> marks;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const auto x = static_cast<double>(i);
+    curves.push_back({std::sin(7.0 * x), 5.0 + 3.0 * std::cos(11.0 * x)});
+    marks.push_back(i);
+  }
+  Figure figure;
+  figure.name = "f";
+  const FigureSeries series = mean_series(figure, "p", "s", 0, {curves, marks}, {}, true);
+  ASSERT_EQ(series.points.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::vector<double> values;
+    for (const auto& curve : curves) values.push_back(curve[k]);
+    Rng rng = Rng::stream(1, fmt::format("f/p/s/{}", k));
+    const Interval drawn = bootstrap_mean(values, clusters_of(marks), rng);
+    EXPECT_EQ(series.points[k].interval.low, drawn.low) << k;
+    EXPECT_EQ(series.points[k].interval.high, drawn.high) << k;
+  }
+}
+
+TEST(FigureTitles, StandAloneWhereThereIsNoOther) {
+  Figure figure = small_figure();
+  EXPECT_EQ(full_title(figure), "Cost & gain");
+  figure.title.clear();
+  figure.subtitle = "lower is better";
+  EXPECT_EQ(full_title(figure), "lower is better");
 }
 
 }  // namespace

@@ -171,5 +171,31 @@ TEST(FlightFigure, WithoutARoomItIsAsLargeAsAllThatIsDrawn) {
   EXPECT_THAT(svg, HasSubstr("<circle cx=\"631.7\" cy=\"79.8\" r=\"8\" fill=\"#5c6b7e\"/>"));
 }
 
+/// Eight of each of three objects, of which two were seen from one direction; one in the legend.
+TEST(FlightFigure, SpokesAreEightAnObject) {
+  const std::string svg = flight_svg(flight(), "a flight", kRoom);
+  const auto count = [&](const std::string& mark) {
+    std::size_t found = 0;
+    for (auto at = svg.find(mark); at != svg.npos; at = svg.find(mark, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("stroke=\"#aab3bf\""), 3U * 8U - 2U + 1U);
+  EXPECT_EQ(count("stroke=\"#d9480f\""), 2U + 1U);
+}
+
+/// Of a room of 1 m x 9.2 m, drawn 174 px wide.
+TEST(FlightFigure, TheLegendOfANarrowRoomIsOneColumn) {
+  const Json nothing = {
+      {"path", Json::array()}, {"plan", Json::array()}, {"objects", Json::array()}};
+  const std::string svg =
+      flight_svg(nothing, "no flight", {{{-0.5, -4.6}, {0.5, -4.6}, {0.5, 4.6}, {-0.5, 4.6}}});
+  for (const char* part :
+       {"width=\"174\"", "<g transform=\"translate(26.0 690.0)\">",
+        "<g transform=\"translate(26.0 710.0)\">",
+        "<g transform=\"translate(26.0 730.0)\">\n<circle cx=\"0.0\" cy=\"0.0\" r"}) {
+    EXPECT_THAT(svg, HasSubstr(part));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

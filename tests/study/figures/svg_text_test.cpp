@@ -28,6 +28,9 @@ TEST(SvgLine, IsPressedTogetherWhereItIsTooWide) {
   EXPECT_FALSE(pressed(56.5, false));
   EXPECT_TRUE(pressed(63.5, true));
   EXPECT_FALSE(pressed(64.5, true));
+  EXPECT_THAT(svg_line(0.0, 0.0, 40.0, "abcde", {.size_px = 12.5, .bold = true}),
+              testing::Not(testing::HasSubstr("textLength")))
+      << "what just fits is not too wide";
   EXPECT_THAT(line(40.0, false, "abcdefghij"),
               testing::HasSubstr("textLength=\"40\" lengthAdjust=\"spacingAndGlyphs\""));
   const std::string umlauts =

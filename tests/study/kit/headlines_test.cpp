@@ -76,6 +76,23 @@ TEST(HeadlineRows, StandBelowEachOther) {
   EXPECT_EQ(headlines_json(rows)[2]["second"], 0.123456);
 }
 
+TEST(StudyHeadlines, AreOfTheTablesThatTheFirstHas) {
+  const Json first = {
+      {"completed", 1},
+      {"tables", {{"empty", Json::object()}, {"area", {{"all", {{"a", {{"mean", 2.0}}}}}}}}}};
+  const std::vector<Headline> rows = study_headlines(first, {{"completed", 1}}, 0.2);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].name, "area, a");
+  EXPECT_EQ(rows[1].first, 2.0);
+  EXPECT_FALSE(rows[1].second);
+  EXPECT_FALSE(Headline{}.beyond);
+}
+
+TEST(HeadlineRows, HaveNoExponentsOfWhatIsLarge) {
+  const std::string text = headlines_text({{"n", 9999.5, 9999.4, true}}, "a", "b");
+  EXPECT_EQ(text.substr(text.find('\n')), "\n! n       10000        9999        -0.1\n");
+}
+
 TEST(ProblemsOfAFile, AreKeptOnceEach) {
   Problems problems;
   EXPECT_TRUE(problems.attempt([] {}));

@@ -119,6 +119,33 @@ TEST(StudyPlaces, EpisodesAreNotTooMany) {
   EXPECT_THROW(episode_levels(study), ConfigError);
 }
 
+TEST(StudyPlaces, AreTheFirstUnlessTold) {
+  const EpisodePlace place{};
+  EXPECT_EQ(place.panel, 0U);
+  EXPECT_EQ(place.level, 0U);
+  EXPECT_EQ(place.pair, 0U);
+  EXPECT_EQ(place.cluster, 0U);
+}
+
+TEST(FilesOfAStudy, AreMissedUnlessTheyAreMadeLater) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "mine.xml", "x");
+  const auto settled = [&](const std::string& yaml) {
+    ConfigNode overrides = parse_yaml(yaml, "s.yaml");
+    settle_files(overrides, folder.path());
+    return to_yaml(overrides);
+  };
+  const auto as_written = [](const std::string& yaml) { return to_yaml(parse_yaml(yaml, "s")); };
+  EXPECT_EQ(settled("scene: mine.xml"),
+            as_written("scene: \"" + (folder / "mine.xml").string() + "\""));
+  for (const char* missed : {"scene: no/such", "robot.model: no/such", "robot: {model: no/such}"}) {
+    EXPECT_THROW(settled(missed), InputError) << missed;
+  }
+  for (const char* kept : {"model: no/such", "database: {models: no/such}", "scene: ''"}) {
+    EXPECT_EQ(settled(kept), as_written(kept));
+  }
+}
+
 TEST(FilesOfAStudy, AreFoundInACommandToo) {
   const support::TemporaryDirectory folder;
   write_file(folder / "planner.py", "x");

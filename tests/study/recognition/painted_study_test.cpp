@@ -69,6 +69,7 @@ RecognitionStudy painted_study(const RecognitionStudyOptions& options) {
 TEST(PaintedStudy, TriesEveryMethodFromTheSameStarts) {
   RecognitionStudyOptions options = plain_study_options();
   options.literal = options.combinations = options.baselines = options.reliability = true;
+  options.recogniser.features = {"colour"};  // all that there is
   options.unknown_starts = 10;
   const RecognitionStudy study = painted_study(options);
   EXPECT_EQ(study.threads, 2);
@@ -183,6 +184,9 @@ TEST(PaintedStudy, SaysWhatCannotBeStudied) {
   options.unknown_datasets.clear();
   options.recogniser.unknown_prior = 0.0;
   EXPECT_THAT(refusal(options), HasSubstr("recogniser.unknown_prior is 0"));
+  options = plain_study_options();
+  options.recognition.views.weight_per_s = 0.5;
+  EXPECT_THAT(refusal(options), HasSubstr("recognition.views.weight_per_s"));
 }
 
 /// Those that a study has of its own.
@@ -211,7 +215,7 @@ TEST(RecognitionStudyOptionNumbers, AreThoseThatAreTold) {
 }
 
 /// By a box that all have alike, and by colour, which tells them apart unless its psi is 0.
-TEST(PaintedStudy, ByPsiOneDoesNotDependOnTheModelsPsi) {
+TEST(PaintedStudy, ByPsiOfItsOwnItDoesNotDependOnTheModelsPsi) {
   TrainingOptions training;
   training.features = {BoundingBox{}, Colour{}};
   training.costs_s = {0.5, 0.5};
@@ -225,9 +229,13 @@ TEST(PaintedStudy, ByPsiOneDoesNotDependOnTheModelsPsi) {
     const RecognitionStudy study =
         run_recognition_study(model, painted_blocks().dataset, options, {.threads = 2});
     EXPECT_EQ(study.methods[1].method, "literal, psi 1");
+    EXPECT_EQ(study.methods[2].method, "literal, published psi");
     std::vector<std::pair<int, double>> estimates;
-    for (const Trial& trial : study.methods[1].trials) {
-      estimates.emplace_back(trial.estimate, trial.probability);
+    for (const std::size_t i : {1U, 2U}) {
+      for (const Trial& trial : study.methods[i].trials) {
+        EXPECT_EQ(trial.features, 2) << "all of them";
+        estimates.emplace_back(trial.estimate, trial.probability);
+      }
     }
     return estimates;
   };
@@ -249,6 +257,49 @@ TEST(PaintedStudy, UnknownObjectsMayBeOfFurtherDatasets) {
   options.unknown_of_dataset = false;
   EXPECT_EQ(shown("lamp_1"), 0);
   EXPECT_EQ(shown("vase_1"), 20);
+}
+
+TEST(PaintedStudy, WithoutUnknownObjectsNoHypothesisOfThemIsNeeded) {
+  RecognitionStudyOptions options = plain_study_options();
+  options.recogniser.unknown_prior = 0.0;
+  const RecognitionStudy study = painted_study(options);
+  EXPECT_EQ(study.methods.at(0).trials.size(), 12U);
+  EXPECT_TRUE(study.methods[0].unknown.trials.empty());
+}
+
+/// By maximum-likelihood variances, a psi of 1 and without unknown objects.
+TEST(PaintedStudy, TheLiteralSettingIsASingleViewOfAPlainModel) {
+  RecognitionStudyOptions options = plain_study_options();
+  options.literal = true;
+  const RecognitionStudy study = painted_study(options);
+  RecognitionModel plain = painted_blocks().model;
+  for (FeatureModel& feature : plain.features) feature.psi = 1.0;
+  options.literal = false;
+  options.recogniser.variance = LiteralVariance{};
+  options.recogniser.unknown_prior = 0.0;
+  const RecognitionStudy by_hand =
+      run_recognition_study(plain, painted_blocks().dataset, options, {.threads = 2});
+  ASSERT_EQ(study.methods.at(1).method, "literal, psi 1");
+  for (std::size_t i = 0; i < 12; ++i) {
+    const Trial& trial = study.methods[1].trials.at(i);
+    const Trial& other = by_hand.methods.at(0).trials.at(i);
+    EXPECT_EQ(trial.estimate, other.estimate) << i;
+    EXPECT_DOUBLE_EQ(trial.probability, other.probability) << i;
+    EXPECT_DOUBLE_EQ(trial.entropy_bits, other.entropy_bits) << i;
+  }
+}
+
+TEST(PaintedStudy, ChangesOfUnknownObjectsAreNotStudied) {
+  DatasetIndex lamps = painted_blocks().dataset;
+  std::erase_if(lamps.views, [](const ViewEntry& view) { return view.name.object != "lamp_1"; });
+  RecognitionStudyOptions options = plain_study_options();
+  options.change_starts = 2;
+  try {
+    static_cast<void>(run_recognition_study(painted_blocks().model, lamps, options, {}));
+    ADD_FAILURE() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("change_starts: needs two objects"));
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "vantage/study/recognition/recognition_study.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -95,6 +96,18 @@ TEST(RecognitionStudy, ObjectsThatTheModelDoesNotKnowCountForTheirCategory) {
   EXPECT_THAT(recognition_tables(study), HasSubstr("1 of 4 objects are not in the model"));
   for (Trial& trial : study.methods[0].trials) trial.object = -1;
   EXPECT_THAT(recognition_tables(study), HasSubstr("so that the accuracy is of none"));
+  study.methods.push_back(study.methods[0]);
+  study.methods[1].method = "ours";
+  EXPECT_EQ(summaries(study)[1].differences.at(0).p_value, 1.0) << "nothing speaks for one";
+  EXPECT_THAT(recognition_tables(small_study()), testing::Not(HasSubstr("not in the model")));
+}
+
+TEST(RecognitionStudy, EstimatesAreOfNothingUnlessTold) {
+  EXPECT_EQ(Estimate{}.mean, 0.0);
+  EXPECT_EQ(PairedEstimate{}.p_value, 1.0);
+  EXPECT_EQ(MethodSummary{}.category_percent, 0.0);
+  EXPECT_FALSE(MethodTrials{}.label_only);
+  EXPECT_FALSE(MethodTrials{}.several_views);
 }
 
 TEST(RecognitionStudy, ChangesCountWhatWasSeenAndWhatItWas) {
@@ -192,6 +205,21 @@ TEST(RecognitionTables, SayWhatTrialsCameTo) {
   }
 }
 
+/// Of four known objects one is held for unknown as surely as those that are.
+TEST(RecognitionTables, SkipMethodsOfWhichThereIsNothingToTell) {
+  RecognitionStudy study = written_study();
+  study.methods[0].trials[0].unknown_probability = 0.9;
+  study.methods.insert(study.methods.begin(), method("linear_svm", 3, 1));
+  study.methods[0].label_only = true;
+  const std::string text = recognition_tables(study);
+  EXPECT_THAT(text, HasSubstr("| random | 75.00 | 80.00 | 5.00 [5.00, 55.00] |\n"));
+  const Interval alarms = summaries(study)[1].unknown->false_alarms_interval;
+  ASSERT_GT(alarms.high, alarms.low);
+  EXPECT_THAT(text,
+              HasSubstr(fmt::format("] | 25.00 [{:.2f}, {:.2f}] | 50.0 | 25.0 | 100.0 | - |\n",
+                                    100.0 * alarms.low, 100.0 * alarms.high)));
+}
+
 TEST(RecognitionTables, FilesHoldTheSame) {
   const support::TemporaryDirectory folder;
   write_recognition_study(written_study(), folder.path());
@@ -234,9 +262,15 @@ TEST(RecognitionTables, FilesOfAFormerStudyAreReplaced) {
   study.options.reliability = true;
   study.methods[0].drawn_as = "as it is";
   study.methods[0].several_views = true;
+  study.methods.insert(study.methods.begin(), method("not drawn", 2, 1));
+  study.methods.push_back(study.methods[1]);
+  study.methods[2].several_views = false;
   write_recognition_study(study, folder.path());
   EXPECT_THAT(read_file(folder / "reliability.csv"),
-              HasSubstr("views by information,as it is,0.8,4,0.75,"));
+              testing::AllOf(HasSubstr("views by information,as it is,0.8,4,0.75,"),
+                             HasSubstr("a single view,as it is,0.8,4,0.75,")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "reliability.svg"));
+  study.methods = {study.methods[1]};
   EXPECT_NO_THROW(prepare_recognition_study(folder.path(), true));
   EXPECT_THROW(prepare_recognition_study(folder.path(), false), ConfigError);
   study.options.reliability = false;
@@ -246,6 +280,9 @@ TEST(RecognitionTables, FilesOfAFormerStudyAreReplaced) {
   for (const char* name : {"reliability.csv", "reliability.svg", "unknown.csv", "changes.csv"}) {
     EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
   }
+  std::filesystem::create_directory(folder / "older");
+  write_file(folder / "older/summary.json", "{}");
+  EXPECT_THROW(prepare_recognition_study((folder / "older").string(), false), ConfigError);
   EXPECT_NO_THROW(prepare_recognition_study((folder / "new").string(), false));
   EXPECT_TRUE(std::filesystem::is_directory(folder / "new"));
 }
@@ -350,6 +387,8 @@ TEST(RecognitionStudy, IntervalsAreDrawnByTheNameOfWhatTheyAreOf) {
   const PairedEstimate& more = ours.differences[0];
   expect_drawn(more.accuracy_percent.interval, more_right, "accuracy ours - random");
   expect_drawn(more.observations.interval, more_views, "observations ours - random");
+  Rng chance = Rng::stream(9, "p ours - random");
+  EXPECT_EQ(more.p_value, sign_flip_p_value(cluster_sums(more_right, each), chance, 2000));
 }
 
 }  // namespace

@@ -130,6 +130,10 @@ TEST(ReliabilityFigure, DrawsBinsAsTheyAre) {
   EXPECT_EQ(honest.points[1].x, 1.0);
   EXPECT_EQ(honest.points[1].mean, 1.0);
   EXPECT_EQ(honest.points[1].interval.low, 1.0);
+  for (const FigurePoint& end : honest.points) {
+    EXPECT_EQ(end.count, 1U);
+    EXPECT_EQ(end.clusters, 1U);
+  }
   EXPECT_EQ(honest.style, 0U);
   EXPECT_EQ(figure.panels[0].series[1].style, 1U);
   EXPECT_EQ(figure.panels[0].series[2].style, 2U);
@@ -164,6 +168,21 @@ TEST(Reliability, OfASingleTrialTheIntervalIsItsAnswer) {
     EXPECT_EQ(bin.count, 1U);
     EXPECT_EQ(bin.interval.low, right ? 1.0 : 0.0);
     EXPECT_EQ(bin.interval.high, right ? 1.0 : 0.0);
+  }
+}
+
+/// Of ten objects in a bin each, every bin is without any in a third of the draws.
+TEST(Reliability, DrawsWithoutATrialInABinSayNothingOfIt) {
+  std::vector<Trial> trials;
+  for (int i = 0; i < 10; ++i) {
+    trials.push_back(
+        {.name = fmt::format("object_{}", i), .correct = true, .probability = (i + 0.5) / 15.0});
+  }
+  const Reliability reliability = reliability_of(trials, 1);
+  for (std::size_t b = 0; b < 10; ++b) {
+    EXPECT_EQ(reliability.bins[b].objects, 1U) << b;
+    EXPECT_EQ(reliability.bins[b].interval.low, 1.0) << b;
+    EXPECT_EQ(reliability.bins[b].interval.high, 1.0) << b;
   }
 }
 

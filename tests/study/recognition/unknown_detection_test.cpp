@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace vantage {
 namespace {
@@ -102,6 +105,70 @@ TEST(UnknownDetection, IsOfNothingUnlessTold) {
         none.category_known_right, none.category_unknown_right}) {
     EXPECT_EQ(share, 0.0);
   }
+}
+
+/// Of known objects and then of unknown ones as many are drawn as there are. By a seed whose last
+/// draw of a thousand is one of the ends, so that it shows.
+TEST(UnknownDetection, IntervalsAreOfAThousandDraws) {
+  const std::size_t kObjects = 12;
+  std::vector<Trial> known;
+  UnknownTrials unknown;
+  for (std::size_t i = 0; i < kObjects; ++i) {
+    const auto x = static_cast<double>(i);
+    known.push_back(
+        {.name = fmt::format("known_{}", i), .unknown_probability = std::fmod(0.618034 * x, 1.0)});
+    unknown.trials.push_back({.object = -1,
+                              .name = fmt::format("unknown_{}", i),
+                              .unknown_probability = 0.2 + 0.8 * std::fmod(0.414214 * x, 1.0)});
+    unknown.category_known.push_back(true);
+  }
+  const auto drawn = [&](const std::vector<Trial>& trials, Rng& rng) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < kObjects; ++i) {
+      values.push_back(trials[rng.uniform_index(kObjects)].unknown_probability);
+    }
+    return values;
+  };
+  const auto alarms_of = [](const std::vector<double>& low, std::vector<double> high) {
+    std::ranges::sort(high);
+    const double threshold = high[1];  // eleven of twelve are found
+    return static_cast<double>(
+               std::ranges::count_if(low, [&](double p) { return p >= threshold; })) /
+           static_cast<double>(low.size());
+  };
+  const auto ends = [](std::vector<double> values, std::size_t count) {
+    values.resize(count);
+    std::ranges::sort(values);
+    return Interval{values[25], values[values.size() - 26]};
+  };
+  const auto areas_and_alarms = [&](std::uint64_t seed) {
+    Rng rng = Rng::stream(seed, "unknown objects");
+    std::vector<double> areas, alarms;
+    for (int draw = 0; draw < 1000; ++draw) {
+      const std::vector<double> low = drawn(known, rng);
+      const std::vector<double> high = drawn(unknown.trials, rng);
+      areas.push_back(area_under_curve(high, low));
+      alarms.push_back(alarms_of(low, high));
+    }
+    return std::pair(areas, alarms);
+  };
+  const auto shows_the_last = [&](std::uint64_t seed) {
+    const std::vector<double> areas = areas_and_alarms(seed).first;
+    const Interval all = ends(areas, 1000);
+    const Interval fewer = ends(areas, 999);
+    return std::max(std::abs(all.low - fewer.low), std::abs(all.high - fewer.high)) > 1e-9;
+  };
+  std::uint64_t seed = 1;
+  while (seed < 200 && !shows_the_last(seed)) ++seed;
+  ASSERT_LT(seed, 200U);
+  const auto [areas, alarms] = areas_and_alarms(seed);
+  const Interval area = ends(areas, 1000);
+  const Interval alarm = ends(alarms, 1000);
+  const UnknownDetection detection = detection_of(known, unknown, seed);
+  EXPECT_DOUBLE_EQ(detection.area_interval.low, area.low);
+  EXPECT_DOUBLE_EQ(detection.area_interval.high, area.high);
+  EXPECT_DOUBLE_EQ(detection.false_alarms_interval.low, alarm.low);
+  EXPECT_DOUBLE_EQ(detection.false_alarms_interval.high, alarm.high);
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -30,6 +32,24 @@ TEST(ChildProcesses, AreThisProgramInAGroupOfTheirOwn) {
   EXPECT_EQ(end->exit_code, 0);
   EXPECT_FALSE(poll_child()) << "it was told already";
   EXPECT_THAT(read_file(folder / "output.txt"), testing::HasSubstr("\nChildProcesses.\n"));
+}
+
+/// As of a service, whose files are whatever numbers are free.
+TEST(ChildProcesses, AreHeardWhereNoStandardStreamIsOpen) {
+  for (const int closed : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    const support::TemporaryDirectory folder;
+    std::fflush(nullptr);
+    const int before = ::dup(closed);
+    ::close(closed);
+    const pid_t child = start_self({"self", "--gtest_list_tests"}, folder / "output.txt");
+    ::dup2(before, closed);
+    ::close(before);
+    siginfo_t info{};
+    ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);
+    EXPECT_TRUE(poll_child());
+    EXPECT_THAT(read_file(folder / "output.txt"), testing::HasSubstr("\nChildProcesses.\n"))
+        << closed;
+  }
 }
 
 TEST(ChildProcesses, NeedAFileForTheirOutput) {
@@ -72,6 +92,24 @@ TEST(ChildProcesses, WriteAFileThatOthersMayRead) {
   siginfo_t info{};
   ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);
   EXPECT_TRUE(poll_child());
+}
+
+TEST(ChildProcesses, HaveAnEndWhenTheyHaveEnded) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::pause();
+    ::_exit(0);
+  }
+  EXPECT_FALSE(poll_child()) << "it waits";
+  ::kill(child, SIGKILL);
+  siginfo_t info{};
+  ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);
+  const auto end = poll_child();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->pid, child);
+  EXPECT_EQ(end->exit_code, 128 + SIGKILL);
+  EXPECT_EQ(ChildEnd{}.pid, 0);
 }
 
 }  // namespace

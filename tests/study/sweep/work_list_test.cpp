@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "tests/study/manifest_of_files.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 
@@ -59,6 +60,55 @@ TEST_F(Work, OfATaskOfAnArrayBeginsWhereOthersDoNot) {
   ::setenv("SLURM_ARRAY_TASK_MIN", "5", 1);
   WorkList list(plan_, options_, states_);
   EXPECT_THAT(taken_from(list), ElementsAre(3U, 4U, 5U, 0U, 1U, 2U));
+}
+
+TEST_F(Work, OfATaskOfAnArrayThatBeginsAtZero) {
+  ::setenv("SLURM_ARRAY_TASK_COUNT", "4", 1);
+  ::setenv("SLURM_ARRAY_TASK_ID", "2", 1);
+  WorkList list(plan_, options_, states_);
+  ASSERT_TRUE(list.open() > 0);
+  EXPECT_EQ(list.take()->episode, 3U);
+}
+
+TEST_F(Work, ThatOthersHaveDoneMeanwhileIsNotClaimed) {
+  WorkList list(plan_, options_, states_);
+  const fs::path folder = episode_folder(study_.path(), plan_[1]);
+  fs::create_directories(folder);
+  write_file(folder / "config.yaml", episode_yaml(plan_[1].resolved));
+  write_file(folder / "manifest.json", manifest_of_files(plan_[1].resolved));
+  write_file(folder / "metrics.json", R"({"status": "completed"})");
+  EXPECT_THAT(taken_from(list), ElementsAre(0U, 2U, 3U, 4U, 5U));
+  EXPECT_EQ(states_[1], EpisodeState::completed);
+  EXPECT_FALSE(fs::exists(claims(1) / "1.json"));
+}
+
+/// A program that stands in for Slurm's says that of two jobs of this cluster one is at work.
+TEST_F(Work, OfTasksOfThisClusterIsAskedOfSlurm) {
+  const fs::path asked = study_ / "asked";
+  write_file(study_ / "squeue", "#!/bin/sh\nprintf '%s\\n' \"$@\" > " + asked.string() +
+                                    "\necho '12|0|RUNNING|None|0|n7|'\n");
+  fs::permissions(study_ / "squeue", fs::perms::owner_all);
+  const auto hold = [&](std::size_t episode, const char* cluster, const char* job) {
+    Worker other = this_worker();
+    other.host = other.machine = "n7";
+    other.slurm = SlurmPlace{cluster, job, "0", 0};
+    ASSERT_TRUE(take_claim(claims(episode), 1, other));
+  };
+  hold(0, "c", "12");
+  hold(1, "c", "13");
+  hold(2, "d", "14");
+  ::setenv("SLURM_CLUSTER_NAME", "c", 1);
+  ::setenv("SLURM_ARRAY_JOB_ID", "15", 1);
+  ::setenv("SLURM_ARRAY_TASK_ID", "0", 1);
+  const char* path = std::getenv("PATH");
+  const std::string before = path == nullptr ? "" : path;
+  ::setenv("PATH", study_.path().c_str(), 1);
+  WorkList list(plan_, options_, states_);
+  const std::vector<std::size_t> taken = taken_from(list);
+  ::setenv("PATH", before.c_str(), 1);
+  EXPECT_THAT(read_file(asked), testing::HasSubstr("--jobs=12,13\n"));
+  EXPECT_THAT(taken, ElementsAre(3U, 4U, 5U, 1U));
+  EXPECT_THAT(list.held(), ElementsAre(0U, 2U));
 }
 
 TEST_F(Work, ThatIsHeldByAnotherIsLeftToIt) {

@@ -134,6 +134,11 @@ TEST(Comparison, UnpairedSamplesCountInTheMeanOnly) {
   EXPECT_DOUBLE_EQ(b.mean, 5.0);
   EXPECT_EQ(b.difference->pairs, 1U);
   EXPECT_DOUBLE_EQ(b.difference->mean, 1.0);
+  const std::vector<Sample> first_alone{{0, 0, 1, 1.0}, {0, 1, 0, 8.0}, {0, 1, 1, 2.0}};
+  const Comparison other = compare_levels("n", "n", {"p"}, {"a", "b"}, 0, first_alone);
+  ASSERT_TRUE(row(other, "p", "b").difference);
+  EXPECT_EQ(row(other, "p", "b").difference->pairs, 1U);
+  EXPECT_DOUBLE_EQ(row(other, "p", "b").difference->mean, 1.0);
 }
 
 TEST(Comparison, WithoutReferenceThereIsNoDifference) {
@@ -203,6 +208,11 @@ TEST(Comparison, RowsAndDifferencesAreOfNothingUnlessTold) {
   EXPECT_EQ(none.mean, 0.0);
   EXPECT_EQ(none.least, 0.0);
   EXPECT_EQ(none.most, 0.0);
+  const Sample sample{};
+  EXPECT_EQ(sample.panel, 0U);
+  EXPECT_EQ(sample.level, 0U);
+  EXPECT_EQ(sample.pair, 0U);
+  EXPECT_EQ(sample.value, 0.0);
   const Difference difference{};
   EXPECT_EQ(difference.pairs, 0U);
   EXPECT_EQ(difference.clusters, 0U);

@@ -117,6 +117,27 @@ TEST(ComparisonTables, VerdictsAreOfTheLastPanelAndOfItsInterval) {
   EXPECT_EQ(verdict_with({0.25, 1.0}), start + "[0.25, 1], better (2 pairs)");
 }
 
+TEST(ComparisonTables, VerdictsOfWhatIsMore) {
+  const auto verdict_if = [](Better better) {
+    Comparison comparison = written_comparison();
+    comparison.better = better;
+    comparison.rows.back().difference->mean = 0.5;
+    comparison.rows.back().difference->interval = {0.25, 0.75};
+    return verdicts({comparison}).at(0);
+  };
+  const std::string start = "ours against ref: cost +0.5 [0.25, 0.75], ";
+  EXPECT_EQ(verdict_if(Better::unsaid), start + "more (2 pairs)");
+  EXPECT_EQ(verdict_if(Better::lower), start + "worse (2 pairs)");
+  EXPECT_EQ(verdict_if(Better::higher), start + "better (2 pairs)");
+}
+
+TEST(ComparisonTables, HaveNoExponentsOfWhatIsLarge) {
+  Comparison comparison = written_comparison();
+  comparison.rows[0].mean = 9999.5;
+  comparison.rows[0].interval = {9999.4, 123456.0};
+  EXPECT_EQ(text_tables(comparison)[0].rows[0][2], "10000 [9999, 123456]");
+}
+
 TEST(FigureTables, HaveABlankWhereASeriesHasNoPoint) {
   Figure figure{"f", "t", "", "scans", "y", {}};
   figure.panels.push_back(
