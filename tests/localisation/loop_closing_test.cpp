@@ -12,36 +12,10 @@
 namespace vantage {
 namespace {
 
-constexpr double kSureWheels_m = 0.001;
-
-/// Keyframes in a room, the first of which is where nothing has been driven.
-class InARoom {
- public:
-  explicit InARoom(const PointCloud& seen, const LoopOptions& loops = {.close = true})
-      : graph_(loops, {}) {
-    graph_.begin(seen, {1.5, -2.5, 0.4});
-  }
-  /// @return whether there are new loops
-  bool go(const PointCloud& seen, double driven_m, double forward_m = 0.0,
-          double sigma_m = kSureWheels_m, double sigma_rad = 0.001) {
-    WheelStep step;
-    step.T_previous_now = {forward_m, 0.0, 0.0};
-    step.covariance = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2().asDiagonal();
-    step.driven_m = driven_m;
-    graph_.add(seen, step);
-    return graph_.close_loops();
-  }
-  bool stay(double driven_m) { return go(test_room::walls(), driven_m); }
-  [[nodiscard]] const KeyframeGraph& graph() const { return graph_; }
-  [[nodiscard]] double moved_m() const {
-    const Pose2 from = graph_.T_world_bases().front();
-    const Pose2 to = graph_.T_world_bases().back();
-    return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
-  }
-
- private:
-  KeyframeGraph graph_;
-};
+using test_room::InARoom;
+using test_room::kSureWheels_m;
+using test_room::room_and_pillar;
+using test_room::tall;
 
 TEST(LoopClosing, WaitsForASecondLoopThatAgrees) {
   InARoom room(test_room::walls());
@@ -195,12 +169,6 @@ TEST(KeyframeGraph, RegistersWithFiveMetresOfTheWay) {
   }
 }
 
-PointCloud room_and_pillar(float walls_from_x_m, float pillar_from_x_m) {
-  PointCloud seen = test_room::walls(walls_from_x_m);
-  append(seen, test_room::pillar(pillar_from_x_m));
-  return seen;
-}
-
 /// By the wheels alone it comes to the pillar, which is all that it sees then, good to 5 cm. What
 /// it sees of the room afterwards says that it went 21 cm, or 24.
 TEST(LoopClosing, IsOfNoPlaceFartherThanTheWayMayHaveDrifted) {
@@ -341,17 +309,6 @@ WheelStep step_of_unsure_wheels(const Eigen::Vector3d& sigma) {
   step.covariance = sigma.cwiseAbs2().asDiagonal();
   step.driven_m = 1.0;
   return step;
-}
-
-/// Five times as high, row over row.
-PointCloud tall(const PointCloud& seen) {
-  PointCloud all;
-  for (int row = 0; row < 5; ++row) {
-    PointCloud higher = seen;
-    for (auto& p : higher.points) p.z() += 0.12F * static_cast<float>(row);
-    append(all, higher);
-  }
-  return all;
 }
 
 /// 300 points on walls across either axis, of which a tenth may be trimmed, say 1 cm each; scans of

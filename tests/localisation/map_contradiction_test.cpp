@@ -113,5 +113,43 @@ TEST(MapContradiction, TheScannerIsWhereItsBaseHasIt) {
   EXPECT_NEAR(contradicted_share(scans), 1.0 / 3.0, 1e-12);
 }
 
+/// One point of a surface that is seen from the left.
+PointCloud surface_at(float x_m, float y_m) {
+  PointCloud cloud = ahead({x_m});
+  cloud.points.front().y() = y_m;
+  return cloud;
+}
+
+TEST(MapContradiction, ASurfaceIsSeenByTwoWithinItsCellOfFiveCentimetres) {
+  const PointCloud beam = ahead({4.025F});
+  const auto seen_by = [&](const PointCloud& one, const PointCloud& other) {
+    return share_of({one, other, beam});
+  };
+  EXPECT_NEAR(seen_by(surface_at(2.01F, 0.025F), surface_at(2.04F, 0.025F)), 1.0 / 3.0, 1e-12);
+  EXPECT_EQ(seen_by(surface_at(2.01F, 0.025F), surface_at(2.06F, 0.025F)), 0.0);
+  EXPECT_NEAR(seen_by(surface_at(2.0F, 0.025F), surface_at(2.04F, 0.025F)), 1.0 / 3.0, 1e-12)
+      << "from its lower side on";
+  EXPECT_NEAR(seen_by(surface_at(2.025F, 0.0F), surface_at(2.025F, 0.04F)), 1.0 / 3.0, 1e-12);
+}
+
+TEST(MapContradiction, ASurfaceIsSeenOnceByAScanThatHasManyPointsOfIt) {
+  const PointCloud beam = ahead({4.025F});
+  EXPECT_EQ(share_of({beam, ahead({2.025F, 2.03F, 2.035F})}), 0.0);
+}
+
+TEST(MapContradiction, PointsOfNoSurfaceAreNoWitnesses) {
+  const PointCloud wall = ahead({2.025F});
+  const PointCloud beam = ahead({4.025F});
+  EXPECT_EQ(share_of({wall, ahead({2.025F}, {0.0F, 0.0F}), beam}), 0.0);
+  PointCloud mixed = ahead({1.025F}, {0.0F, 0.0F});
+  append(mixed, wall);
+  EXPECT_NEAR(share_of({wall, mixed, beam}), 1.0 / 3.0, 1e-12) << "those behind one are";
+}
+
+TEST(MapContradiction, PointsBehindOneThatIsTooNearAreAsked) {
+  const PointCloud wall = ahead({2.025F});
+  EXPECT_NEAR(share_of({wall, wall, ahead({0.46F, 1.0F, 1.0F, 4.025F})}), 1.0 / 3.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -245,5 +245,54 @@ TEST(PlaceMatch, TheSearchGoesBeyondItsWindowRatherThanShortOfIt) {
       << "in steps of 12.5 mrad";
 }
 
+/// A row beside a wall is worth two thirds of it, the next one nothing.
+TEST(PlaceMatch, AWallIsThreeCellsWide) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0);
+  const auto found = [&](double x_m, double y_m) {
+    Points now;
+    now.add(x_m, y_m);
+    return search_pose(now.cloud, place.cloud, {}, {0.05, 0.0});
+  };
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_NEAR(found(0.0, 0.1 * side).y_m, -0.05 * side, 1e-9);
+    EXPECT_NEAR(found(0.3 * side, 0.0).x_m, -0.05 * side, 1e-9);
+    EXPECT_NEAR(found(0.0, 0.2 * side).y_m, 0.0, 1e-9);
+  }
+}
+
+TEST(PlaceMatch, BeyondTheRimOfAPlaceNothingIsKnown) {
+  Points place;
+  place.add(0.0, 0.0);
+  const auto found_x_m = [&](double x_m, double window_m) {
+    Points now;
+    now.add(x_m, 0.0);
+    return search_pose(now.cloud, place.cloud, {}, {window_m, 0.0}).x_m;
+  };
+  EXPECT_NEAR(found_x_m(0.13, 0.05), -0.05, 1e-9) << "though a wall goes on for 20 cm";
+  EXPECT_NEAR(found_x_m(0.18, 0.05), 0.0, 1e-9);
+}
+
+TEST(PlaceMatch, NoPlaceWithoutASurfaceIsBetterThanAnother) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0);
+  for (const double x_m : {5.05, 5.15}) {
+    Points now;
+    now.add(x_m, 0.5);
+    EXPECT_NEAR(search_pose(now.cloud, place.cloud, {}, {0.1, 0.0}).x_m, 0.0, 1e-9) << x_m;
+  }
+}
+
+TEST(PlaceMatch, OfAScanWithoutSurfacesTheGuessStays) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0);
+  Points now;
+  now.add(0.0, 0.05, 0.0, 0.0);
+  const Pose2 found = search_pose(now.cloud, place.cloud, {0.5, -0.5, 0.25}, {0.1, 0.05});
+  EXPECT_EQ(found.x_m, 0.5);
+  EXPECT_EQ(found.y_m, -0.5);
+  EXPECT_EQ(found.yaw_rad, 0.25);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -203,5 +203,59 @@ TEST(PoseGraph, OfOnePoseIsAtRest) {
   EXPECT_TRUE(covariances[0].isZero());
 }
 
+TEST(PoseGraph, AnEdgeMayLeadBackwards) {
+  const std::vector<Pose2> poses{{0.5, -1, 0.2}, {1.5, 2, 0.7}, {4, 1, -0.9}};
+  Eigen::Matrix3d information;
+  information << 40, 7, -3, 7, 90, 11, -3, 11, 200;
+  const std::vector<PoseEdge> edges{{0, 1, {1.1, 2.7, 0.4}, information},
+                                    {2, 1, {-1.5, 2.3, 1.5}, 2.0 * information}};
+  const Eigen::MatrixXd expected = differenced(poses, edges).inverse();
+  const auto found = pose_covariances(poses, edges, std::array<std::size_t, 2>{1, 2});
+  for (const Eigen::Index i : {0, 1}) {
+    const Eigen::Matrix3d block = expected.block<3, 3>(3 * i, 3 * i);
+    EXPECT_LT((found[static_cast<std::size_t>(i)] - block).norm(), 1e-6 * block.norm()) << i;
+  }
+}
+
+TEST(PoseGraph, WithoutMeasurementsAllStaysAsItIs) {
+  std::vector<Pose2> poses{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
+  EXPECT_TRUE(optimise_pose_graph(poses, {}));
+  EXPECT_EQ(poses[1].x_m, 4.0);
+  EXPECT_EQ(poses[1].yaw_rad, 6.0) << "not even wrapped";
+}
+
+TEST(PoseGraph, TheFirstPoseStaysWhereNothingTiesItToTheOthers) {
+  std::vector<Pose2> poses{{1.0, 2.0, 6.0}, {3.0, 0.0, 0.5}, {9.0, 9.0, 0.0}};
+  const Pose2 step{0.6, -0.4, 0.5};
+  optimise_pose_graph(poses,
+                      std::vector<PoseEdge>{{1, 2, step, Eigen::Vector3d(9, 16, 25).asDiagonal()}});
+  EXPECT_EQ(poses[0].x_m, 1.0);
+  EXPECT_EQ(poses[0].y_m, 2.0);
+  EXPECT_EQ(poses[0].yaw_rad, 6.0) << "not even wrapped";
+  const Pose2 found = compose(inverse(poses[1]), poses[2]);
+  EXPECT_NEAR(found.x_m, step.x_m, 1e-4);
+  EXPECT_NEAR(found.y_m, step.y_m, 1e-4);
+  EXPECT_NEAR(found.yaw_rad, step.yaw_rad, 1e-4);
+}
+
+TEST(PoseGraph, LittleInformationIsInformation) {
+  const std::vector<Pose2> poses{{0, 0, 0}, {1, 0, 0}};
+  const Eigen::Matrix3d little = 0.25 * Eigen::Matrix3d::Identity();
+  const auto covariance = pose_covariances(poses, std::vector<PoseEdge>{{0, 1, {1, 0, 0}, little}},
+                                           std::array<std::size_t, 1>{1});
+  EXPECT_NEAR(covariance.front()(0, 0), 4.0, 1e-9);
+}
+
+TEST(PoseGraph, AllAreUnsureWhereOneIsTiedByNothing) {
+  const std::vector<Pose2> poses{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
+  across(1, 1) = 1.0;
+  const std::vector<PoseEdge> edges{{0, 1, {1, 0, 0}, across}};
+  const auto covariances = pose_covariances(poses, edges, std::array<std::size_t, 3>{0, 1, 2});
+  EXPECT_TRUE(covariances[0].isZero());
+  EXPECT_TRUE(std::isinf(covariances[1](2, 2)));
+  EXPECT_TRUE(std::isinf(covariances[2](2, 2)));
+}
+
 }  // namespace
 }  // namespace vantage

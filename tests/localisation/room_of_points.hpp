@@ -1,6 +1,9 @@
 /// What a robot sees that never turns, in a room of few points that no voxel of 3 cm joins.
 #pragma once
 
+#include <cmath>
+
+#include "vantage/localisation/keyframe_graph.hpp"
 #include "vantage/perception/clouds/point_cloud.hpp"
 
 namespace vantage::test_room {
@@ -61,5 +64,58 @@ inline PointCloud pillar(float from_x_m = 0.0F) {
   add_pillar(room);
   return room.seen;
 }
+
+inline PointCloud room_and_pillar(float walls_from_x_m, float pillar_from_x_m) {
+  PointCloud seen = walls(walls_from_x_m);
+  append(seen, pillar(pillar_from_x_m));
+  return seen;
+}
+
+/// Five times as high, row over row.
+inline PointCloud tall(const PointCloud& seen) {
+  PointCloud all;
+  for (int row = 0; row < 5; ++row) {
+    PointCloud higher = seen;
+    for (auto& p : higher.points) p.z() += 0.12F * static_cast<float>(row);
+    append(all, higher);
+  }
+  return all;
+}
+
+/// Points as a robot sees them that stands there in the room.
+inline PointCloud seen_from(const Pose2& T_room_base, const PointCloud& in_room) {
+  return transform(in_room, to_se3(inverse(T_room_base)));
+}
+
+inline constexpr double kSureWheels_m = 0.001;
+
+/// Keyframes in a room, the first of which is where nothing has been driven.
+class InARoom {
+ public:
+  explicit InARoom(const PointCloud& seen, const LoopOptions& loops = {.close = true})
+      : graph_(loops, {}) {
+    graph_.begin(seen, {1.5, -2.5, 0.4});
+  }
+  /// @return whether there are new loops
+  bool go(const PointCloud& seen, double driven_m, double forward_m = 0.0,
+          double sigma_m = kSureWheels_m, double sigma_rad = 0.001) {
+    WheelStep step;
+    step.T_previous_now = {forward_m, 0.0, 0.0};
+    step.covariance = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2().asDiagonal();
+    step.driven_m = driven_m;
+    graph_.add(seen, step);
+    return graph_.close_loops();
+  }
+  bool stay(double driven_m) { return go(walls(), driven_m); }
+  [[nodiscard]] const KeyframeGraph& graph() const { return graph_; }
+  [[nodiscard]] double moved_m() const {
+    const Pose2 from = graph_.T_world_bases().front();
+    const Pose2 to = graph_.T_world_bases().back();
+    return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  }
+
+ private:
+  KeyframeGraph graph_;
+};
 
 }  // namespace vantage::test_room

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "tests/report/sample_run.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -151,6 +153,20 @@ TEST_F(PageOfARun, AFrameWithoutANumberComesBeforeTheFirst) {
   write_file(run_ / "frames" / "cover.png", "bc");
   write_file(run_ / "frames" / "scan_00.png", "a");
   EXPECT_EQ(data()["media"]["frame"], "data:image/png;base64,YQ==");
+}
+
+TEST_F(PageOfARun, HasItsDataInOneLineOfPlainLetters) {
+  write_file(run_ / "config.yaml", "name: caf\xc3\xa9\n");
+  std::string text = data_text();
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  text.erase(0, text.find_first_not_of('\n'));
+  EXPECT_EQ(text.find('\n'), text.npos);
+  EXPECT_TRUE(std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; }));
+  EXPECT_EQ(json::parse(text)["config"], "name: caf\xc3\xa9\n");
+}
+
+TEST_F(PageOfARun, HasItsStyle) {
+  EXPECT_THAT(page(), testing::HasSubstr("<style>\n:root {\n  color-scheme: light;"));
 }
 
 }  // namespace

@@ -216,6 +216,8 @@ TEST_F(EpisodeRuns, HaveTheirFolderAloneUntilItIsReleased) {
   release_run_directory(folder_.path());
   EXPECT_TRUE(is_open_to_others());
   EXPECT_NO_THROW(release_run_directory(folder_.path()));
+  const EpisodeRun again(asked);
+  EXPECT_FALSE(is_open_to_others());
 }
 
 TEST_F(EpisodeRuns, DoNotRunIntoAFolderOfAnotherProcess) {
@@ -259,6 +261,7 @@ TEST_F(EpisodeRuns, TakeTheTimeFromWhenTheirFolderIsMade) {
   const auto wall_time_s = nlohmann::json::parse(outcome.metrics).at("wall_time_s").get<double>();
   EXPECT_GE(wall_time_s, 0.0);
   EXPECT_LE(wall_time_s, wall_s() - before_s);
+  EXPECT_FALSE(is_there("candidates.csv")) << "it chooses from nothing";
 }
 
 /// Of a world in which the body moves 10 cm a tick.

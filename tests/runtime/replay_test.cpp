@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -10,6 +11,8 @@
 #include "tests/sim/test_world.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/hash.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/log/state_log.hpp"
 
 namespace vantage {
@@ -185,6 +188,33 @@ TEST_F(Replays, OfAnotherNumberOfStatesOrActuatorsAreRefused) {
     EXPECT_THAT(test::message_of<InputError>([&] { static_cast<void>(replayed()); }),
                 HasSubstr("states.bin: recorded with another scene or robot than "));
   }
+}
+
+TEST_F(Replays, OfARunWithoutATickAreTheSame) {
+  test::RoverWorld rover;
+  StateLog log(folder_.path(), actuator_names(rover.world), rover.world.state());
+  log.commit();
+  write_file(folder_ / "metrics.json", "{\"state_hash\": \"" + hash_text(log.hash()) + "\"}");
+  const ReplayResult result = replayed();
+  EXPECT_EQ(result.first_difference, std::nullopt) << result.what;
+  EXPECT_EQ(result.ticks, 0U);
+  EXPECT_EQ(ReplayResult{}.time_s, 0.0);
+  EXPECT_EQ(ReplayResult{}.state_hash, 0U);
+}
+
+TEST_F(Replays, GoNoFurtherThanWhereTheyAreInterrupted) {
+  const auto interrupted = [&] {
+    set_verbosity(Verbosity::quiet);
+    catch_interrupts();
+    std::raise(SIGINT);
+    try {
+      static_cast<void>(replayed());
+    } catch (const Interrupted&) {
+      std::_Exit(7);
+    }
+    std::_Exit(1);
+  };
+  EXPECT_EXIT(interrupted(), testing::ExitedWithCode(7), "");
 }
 
 }  // namespace

@@ -205,5 +205,67 @@ TEST(PanelNumbers, StepsAreRound) {
   EXPECT_DOUBLE_EQ(panel::round_step(0.3, 100), 0.005);
 }
 
+TEST(TourDrawing, IsDashedFromTheFirstStopOn) {
+  const cv::Mat image = image_of(stops_at({{0.5, 0.1}, {0.5, 0.9}}), {});
+  int drawn = 0;
+  for (int x = 36; x < 166; ++x) drawn += image.at<cv::Vec3b>(100, x)[0] > 112 ? 1 : 0;
+  EXPECT_GT(drawn, 50);
+}
+
+/// A stroke of 2.2 px covers 0.6 of the pixels beside its middle.
+TEST(TourDrawing, IsAStrokeThatIsFaintBehindSomething) {
+  const TourDrawing how{.from_m = Eigen::Vector2d(0.5, 0.9)};
+  const auto share_of_colour = [&](float inverse_depth, int aside_px) {
+    MapCanvas canvas = make_canvas({200, 200});
+    canvas.inverse_depth.setTo(cv::Scalar(inverse_depth));
+    draw_tour(canvas, camera_above(), stops_at({{0.5, 0.2}}), how);
+    return canvas.bgr.at<cv::Vec3b>(100 + aside_px, 120)[2] / panel::kPlan[2];
+  };
+  EXPECT_NEAR(share_of_colour(0.0F, 0), 0.95, 0.01);
+  EXPECT_NEAR(share_of_colour(0.0F, 1), 0.6 * 0.95, 0.01);
+  EXPECT_EQ(share_of_colour(0.0F, 2), 0.0);
+  EXPECT_NEAR(share_of_colour(1.0F, 0), 0.4, 0.01);
+}
+
+TEST(TourDrawing, DotsAndDiscsGrowWithTheStroke) {
+  const cv::Mat small = image_of(stops_at({{0.5, 0.5}, {0.5, 0.585}}), {});
+  EXPECT_FALSE(is_near_colour(small, {0.5, 0.585 + 5.5 / 200.0}, panel::kPlan)) << "4 px";
+  // Discs of 18 px at 30 px from each other.
+  const cv::Mat large = image_of(stops_at({{0.5, 0.4}, {0.5, 0.55}}), {.unit = 2.0});
+  EXPECT_TRUE(is_near_colour(large, {0.5, 0.55 + 5.0 / 200.0}, panel::kPlan)) << "7 px";
+  EXPECT_FALSE(is_near_colour(large, {0.5, 0.55 + 9.0 / 200.0}, panel::kPlan));
+}
+
+TEST(TourDrawing, NumbersCountFromStopToStop) {
+  const PlannedTour tour = stops_at({{0.2, 0.2}, {0.8, 0.3}, {0.5, 0.7}});
+  const auto lettered = [&](std::size_t first, const Eigen::Vector2d& place_m) {
+    const cv::Mat image = image_of(tour, {.number = first});
+    const cv::Point middle(static_cast<int>(std::lround(200.0 * place_m.y())),
+                           static_cast<int>(std::lround(200.0 * place_m.x())));
+    return cv::Mat(image, cv::Rect(middle - cv::Point(5, 5), cv::Size(11, 11)));
+  };
+  EXPECT_TRUE(alike(lettered(1, {0.5, 0.7}), lettered(2, {0.8, 0.3}))) << "a 3";
+  EXPECT_FALSE(alike(lettered(1, {0.5, 0.7}), lettered(1, {0.8, 0.3})));
+}
+
+TEST(PanelText, IsAsLargeAsAsked) {
+  const auto drawn = [](double size, bool bold) {
+    cv::Mat image(80, 300, CV_8UC3, cv::Scalar());
+    panel::text(image, {2.0, image.size()}, "HHHHHH", {10.0, 60.0}, size, cv::Scalar::all(255),
+                panel::Align::left, bold);
+    cv::Mat grey;
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+    return grey;
+  };
+  const cv::Rect box = cv::boundingRect(drawn(11.0, false));
+  EXPECT_NEAR(box.width, 6 * 22, 12);
+  EXPECT_NEAR(box.height, 21, 4);
+  EXPECT_GT(cv::sum(drawn(11.0, true))[0], 1.2 * cv::sum(drawn(11.0, false))[0]);
+  cv::Mat plain(80, 300, CV_8UC3, cv::Scalar());
+  panel::text(plain, {2.0, plain.size()}, "HHHHHH", {10.0, 60.0}, 11.0, cv::Scalar::all(255));
+  cv::cvtColor(plain, plain, cv::COLOR_BGR2GRAY);
+  EXPECT_TRUE(alike(plain, drawn(11.0, false))) << "neither bold nor in the middle";
+}
+
 }  // namespace
 }  // namespace vantage

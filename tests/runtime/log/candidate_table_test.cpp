@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 #include "tests/support/temporary_directory.hpp"
@@ -67,6 +68,15 @@ TEST(CandidateTable, HasARowForEachCandidateOfEachDecision) {
             "2,9,5,6,0\n"
             "3,2,7,8,1\n"
             "3,3,9,0,0\n");
+}
+
+TEST(PoseColumns, LookStraightUpOrDownWhateverIsLostToRounding) {
+  for (const double down : {-1.0, 1.0}) {
+    Pose T_world_sensor = make_pose({0.0, 0.0, 0.0}, 0.0, 0.5 * std::numbers::pi * down);
+    T_world_sensor.matrix()(2, 0) = -down * (1.0 + 1e-9);
+    EXPECT_NEAR(numbers_in(pose_columns(T_world_sensor))[4], 0.5 * std::numbers::pi * down, 1e-12);
+  }
+  EXPECT_EQ(CandidateRow{}.id, 0);
 }
 
 }  // namespace

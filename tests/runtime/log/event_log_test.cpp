@@ -265,5 +265,118 @@ TEST(EventLogFile, RefusesPlacesThatAreNowhere) {
   }
 }
 
+TEST(EventLogFile, MayEndWithAnythingThatCanBeTold) {
+  Candidate view;
+  view.T_world_sensor = make_pose({1.0, 2.0, 3.0}, 0.5);
+  PlannedTour tour;
+  tour.stops.resize(2);
+  const std::vector<EpisodeEvent> events{{1, MapChange{{{0, 2, CellState::free}}}},
+                                         {1, Decision{{view, view}, 1}},
+                                         {1, PlannedRoute{{{0.5, 1.5}, {2.5, 3.5}}}},
+                                         {1, PlannedFlight{{{0.5, 1.5, 2.5}}}},
+                                         {1, tour}};
+  for (const EpisodeEvent& event : events) {
+    const support::TemporaryDirectory folder;
+    EventLog log(folder.path());
+    log.add(event);
+    log.commit();
+    const auto read = read_event_log(folder / "story.bin", small_frame().size());
+    ASSERT_EQ(read.size(), 1U);
+    EXPECT_EQ(read[0].what.index(), event.what.index());
+  }
+}
+
+TEST(EventLogFile, IsOfTheseBytes) {
+  const support::TemporaryDirectory folder;
+  Candidate view;
+  view.T_world_sensor = make_pose({1.0, 2.0, 3.0}, 0.5);
+  view.gain_bits = 7.5;
+  view.reachable = true;
+  EventLog log(folder.path());
+  log.add({40, MapChange{{{3, 2, CellState::occupied}}}});
+  log.add({41, Decision{{view}, 1}});
+  log.commit();
+  std::string bytes = "VANTAGE STORY 1\n";
+  const auto put_number = [&](auto number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+  };
+  put_number(std::uint64_t{40});
+  for (const std::uint32_t number : {0U, 1U}) put_number(number);
+  put_number(std::uint64_t{0});
+  for (const std::uint32_t number : {3U, 2U, 2U}) put_number(number);
+  put_number(std::uint64_t{41});
+  for (const std::uint32_t number : {1U, 1U}) put_number(number);
+  put_number(std::uint64_t{1});
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) put_number(view.T_world_sensor(row, column));
+  }
+  for (const double number : {7.5, 1.0}) put_number(number);
+  EXPECT_EQ(read_file(folder / "story.bin"), bytes);
+}
+
+TEST(EventLogFile, RefusesAStopOfNoCandidate) {
+  const auto is_read = [](int id) {
+    const support::TemporaryDirectory folder;
+    PlannedTour tour;
+    tour.stops.resize(1);
+    tour.stops[0].id = id;
+    EventLog log(folder.path());
+    log.add({1, tour});
+    log.commit();
+    try {
+      return std::get<PlannedTour>(read_event_log(folder / "story.bin", 1)[0].what).stops[0].id ==
+             id;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(is_read(-1));
+  EXPECT_TRUE(is_read(1'000'000'000));
+  EXPECT_TRUE(is_read(700'000'000));
+  EXPECT_FALSE(is_read(-2));
+  EXPECT_FALSE(is_read(1'500'000'000));
+}
+
+TEST(EventLogFile, IsInOrderAndEndsWithTheGrid) {
+  const support::TemporaryDirectory folder;
+  const auto path = folder / "story.bin";
+  EventLog log(folder.path());
+  for (const std::uint64_t tick : {40U, 95U, 95U}) {
+    log.add({tick, MapChange{{{30, 2, CellState::free}}}});
+  }
+  log.commit();
+  EXPECT_NO_THROW(read_event_log(path, 32)) << "up to its last cell";
+  EXPECT_THROW(read_event_log(path, 31), InputError);
+  std::string bad = read_file(path);
+  bad[16 + 2 * 36] = 50;
+  write_file(path, bad);
+  EXPECT_THROW(read_event_log(path, 32), InputError) << "later than the first, not than the second";
+  bad[16 + 2 * 36] = 95;
+  bad[0] = 'v';
+  write_file(path, bad);
+  EXPECT_THROW(read_event_log(path, 32), InputError) << "not ours";
+}
+
+TEST(EventLogFile, WhatIsPlannedReplacesWhatWas) {
+  const std::vector<EpisodeEvent> events{{1, Decision{}},
+                                         {1, std::get<PlannedTour>(planned_event_log()[1].what)},
+                                         {1, PlannedRoute{{{0.0, 0.1}, {0.5, 0.2}}}},
+                                         {2, PlannedRoute{{{1.5, 2.5}}}},
+                                         {3, Decision{}}};
+  EventReplay moment(small_frame());
+  EXPECT_EQ(moment.scans(), 0U);
+  moment.go_to(events, 3);
+  EXPECT_EQ(moment.tour().stops.size(), 2U);
+  EXPECT_EQ(moment.path_m().size(), 2U);
+  moment.go_to(events, 4);
+  ASSERT_EQ(moment.path_m().size(), 1U);
+  EXPECT_EQ(moment.path_m()[0], Eigen::Vector3d(1.5, 2.5, 0.0));
+  moment.go_to(events, 5);
+  EXPECT_TRUE(moment.tour().stops.empty());
+  EXPECT_EQ(CellRun{}.first, 0U);
+  EXPECT_EQ(CellRun{}.count, 0U);
+  EXPECT_EQ(EpisodeEvent{}.tick, 0U);
+}
+
 }  // namespace
 }  // namespace vantage

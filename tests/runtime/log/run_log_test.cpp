@@ -119,5 +119,21 @@ TEST(RunLog, TellsWhoWatches) {
   EXPECT_FALSE(logged.world.on_tick);
 }
 
+TEST(RunLog, HasBodiesAsTheyLie) {
+  LoggedWorld logged;
+  RecordedRobot robot = logged.robot();
+  robot.T_world_body = [] { return make_pose({0.0, 0.0, 1.0}, 0.6, 0.4); };
+  RunLog log(robot, {}, logged.folder.path(), false, true, {});
+  logged.advance();
+  log.commit();
+  const Eigen::Quaterniond q(make_pose({0.0, 0.0, 1.0}, 0.6, 0.4).linear());
+  const auto truth = rows_of(logged.folder / "trajectory.tum");
+  ASSERT_FALSE(truth.empty());
+  EXPECT_NEAR(truth[0][4], q.x(), 1e-6);
+  EXPECT_NEAR(truth[0][5], q.y(), 1e-6);
+  EXPECT_NEAR(truth[0][6], q.z(), 1e-6);
+  EXPECT_NEAR(truth[0][7], q.w(), 1e-6);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -142,5 +142,43 @@ TEST(StateLog, ActionsOfOtherActuatorsAreNotCanonicalOrRefused) {
   }
 }
 
+TEST(StateLog, MayBeOfOneNumberAndNoActuator) {
+  const support::TemporaryDirectory folder;
+  StateLog log(folder.path(), {}, std::array{2.5});
+  log.commit();
+  const RecordedStates states = read_states(folder / "states.bin");
+  EXPECT_EQ(states.state_size, 1U);
+  EXPECT_EQ(states.actuators, 0U);
+  EXPECT_EQ(states.values, std::vector<double>{2.5});
+}
+
+TEST(StateLog, HasNoSizesThatNoFileHolds) {
+  const support::TemporaryDirectory folder;
+  const auto path = folder / "states.bin";
+  {
+    StateLog log(folder.path(), kNames, std::array{0.0, 1.0});
+    log.add(std::array{0.5}, std::array{1.0, 2.0});
+    log.commit();
+  }
+  const std::string good = read_file(path);
+  for (const std::size_t high_byte : {17U + 7U, 17U + 15U}) {
+    std::string bad = good;
+    bad[high_byte] = '\x20';  // 2^61 numbers are 2^64 bytes
+    write_file(path, bad);
+    EXPECT_THROW(read_states(path), InputError) << high_byte;
+  }
+}
+
+TEST(StateLog, ActionsBeginAtTheFirstTick) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "actions.csv", "tick,left,right\nx,1,2\n");
+  const auto actions = read_actions(folder / "actions.csv", kTwoNames);
+  ASSERT_EQ(actions.size(), 1U);
+  EXPECT_EQ(actions[0].tick, 0U);
+  EXPECT_EQ(RecordedAction{}.tick, 0U);
+  EXPECT_TRUE(RecordedAction{}.canonical);
+  EXPECT_EQ(RecordedStates{}.record_size(), 0U);
+}
+
 }  // namespace
 }  // namespace vantage

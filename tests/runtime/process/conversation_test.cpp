@@ -5,8 +5,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -68,6 +71,9 @@ TEST_F(Conversations, FailByWhatTheProgramSaidLast) {
             "it ended: exit code 3, after it said:  b\\xc3\\xa4d");
   EXPECT_EQ(talk_failure("echo \"$PWD/x and $PWD/y\" >&2; exit 1"),
             "it ended: exit code 1, after it said: ./x and ./y");
+  EXPECT_EQ(talk_failure("echo \"$PWD$PWD\" >&2; exit 1"),
+            "it ended: exit code 1, after it said: ..");
+  EXPECT_EQ(talk_failure("printf '\\n  ' >&2; exit 3"), "it ended: exit code 3");
   EXPECT_EQ(talk_failure("head -c 300 /dev/zero | tr '\\000' x >&2; exit 1"),
             "it ended: exit code 1, after it said: " + std::string(200, 'x') + " ...");
   EXPECT_EQ(talk_failure("echo gone >&2; exec >&-; sleep 100"),
@@ -135,17 +141,61 @@ TEST_F(Conversations, EndWithALastLineAndTheEndOfTheInput) {
 
 /// Who writes to it is told by an error, not by a signal.
 TEST_F(Conversations, OutliveAProgramThatListensNoMore) {
-  Conversation conversation = with("exec <&-; echo hello; sleep 100");
+  Conversation conversation = with("read q; exec <&-; echo hello; sleep 100");
   EXPECT_EQ(conversation.ask("one", kAnswersWithin_s), "hello");
   try {
-    conversation.ask("two", 0.5);
+    conversation.ask(std::string(300000, 'x'), 0.5);
     ADD_FAILURE() << "nobody heard it";
   } catch (const ConversationFailed& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with("no answer within 0.5 s")) << error.what();
+    EXPECT_STREQ(error.what(), "no answer within 0.5 s") << "what is lost is not left to be read";
   }
   sigset_t blocked;
   ::pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
   EXPECT_EQ(::sigismember(&blocked, SIGPIPE), 0) << "as it was before";
+}
+
+/// The last 4096 bytes of 5000 in one line, and of these the first 200.
+TEST_F(Conversations, FailByTheEndOfWhatTheProgramSaid) {
+  std::string said;
+  for (int i = 0; said.size() < 5000; ++i) said += std::to_string(i) + ".";
+  said.resize(5000);
+  EXPECT_EQ(talk_failure("printf %s " + said + " >&2; exit 1"),
+            "it ended: exit code 1, after it said: " + said.substr(5000 - 4096, 200) + " ...");
+}
+
+TEST_F(Conversations, PassOnALastLineThatHasNoEnd) {
+  talk_failure("echo one >&2; exit 3");
+  EXPECT_EQ(told_, std::vector<std::string>{"one"});
+  told_.clear();
+  talk_failure("echo one >&2; printf x >&2; exit 3");
+  EXPECT_EQ(told_, (std::vector<std::string>{"one", "x"}));
+}
+
+/// Lines of 64 bytes with their ends: 1024 of them are 65536 bytes.
+TEST_F(Conversations, PassOnAsMuchAsTheBoundAndSayOnceThatThereIsMore) {
+  const std::string line(63, 'x');
+  Conversation conversation =
+      with("read q; i=0; while [ $i -lt 1024 ]; do echo " + line +
+           "; i=$((i + 1)); done >&2; echo a; read q; echo more >&2; echo b; read q; echo more >&2;"
+           " echo c; read q");
+  EXPECT_EQ(conversation.ask("q", kAnswersWithin_s), "a");
+  ASSERT_EQ(told_.size(), 1024U);
+  EXPECT_EQ(told_.back(), line);
+  EXPECT_EQ(conversation.ask("q", kAnswersWithin_s), "b");
+  ASSERT_EQ(told_.size(), 1025U);
+  EXPECT_EQ(told_.back(), "(more than 65536 bytes: the rest is left out)");
+  EXPECT_EQ(conversation.ask("q", kAnswersWithin_s), "c");
+  EXPECT_EQ(told_.size(), 1025U);
+}
+
+/// Though it closes its output before.
+TEST_F(Conversations, EndWithWhatTheProgramDoesAndSaysAtLast) {
+  Conversation conversation =
+      with("read q; echo a; read q; exec >&-; sleep 0.05; echo over > end; echo done >&2");
+  EXPECT_EQ(conversation.ask("q", kAnswersWithin_s), "a");
+  conversation.part("bye", 10.0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "end"));
+  EXPECT_EQ(told_, std::vector<std::string>{"done"});
 }
 
 }  // namespace
