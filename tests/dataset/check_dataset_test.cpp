@@ -133,6 +133,8 @@ TEST_F(CheckedFolder, DistancesAndSizesThatCannotBeAreProblems) {
   EXPECT_THAT(problems_of({.depth_m = 6.1}), ElementsAre(HasSubstr("is 6.1 m away")));
   // 95 % of 200 px at 570.3 px: a third of the distance.
   EXPECT_THAT(problems_of({.width_px = 200, .height_px = 10, .depth_m = 4.4}), IsEmpty());
+  EXPECT_THAT(problems_of({.width_px = 200, .height_px = 10, .depth_m = 4.46}), IsEmpty())
+      << "190 px are 1.49 m";
   EXPECT_THAT(problems_of({.width_px = 200, .height_px = 10, .depth_m = 4.6}),
               ElementsAre(HasSubstr("m large")));
   EXPECT_THAT(problems_of({.width_px = 10, .height_px = 200, .depth_m = 4.6}),
@@ -186,6 +188,7 @@ TEST_F(CheckedFolder, IsWhatItsNotesSay) {
   EXPECT_EQ(checked.bins, 4);
   EXPECT_EQ(checked.objects.at(0).bins, 1);
   EXPECT_EQ(check(12).bins, 12) << "where it is asked for others";
+  EXPECT_EQ(check(1).bins, 1);
 }
 
 TEST_F(CheckedFolder, ViewsThatCannotBeReadAreProblems) {
@@ -319,6 +322,16 @@ TEST_F(TwoDatasets, WhoseNumbersDifferMayStillBeUsed) {
   test_.objects.push_back({.object = "jug_2"});
   EXPECT_THAT(said(),
               testing::AllOf(testing::SizeIs(4), testing::Each(Not(testing::StartsWith("!")))));
+}
+
+TEST_F(CheckedFolder, WithoutAnyDepthIsNeitherNearNorSmall) {
+  put_another("cup_1");
+  put("cup_1", 1, 1, 0.0, {.grey = 1}, [](ObjectView& view) {
+    for (float& depth_m : view.depth_m) depth_m = 0.0F;
+  });
+  EXPECT_THAT(check().problems, IsEmpty());
+  EXPECT_THAT(check().advice,
+              Contains(HasSubstr("cup_1_1_1_depthcrop.png: 100 % of the object has no depth")));
 }
 
 }  // namespace

@@ -93,8 +93,11 @@ TEST(ContactSheet, NamesEachObjectBelowItsPicture) {
 TEST(ContactSheet, ShowsTheSecondVideoFromTheRightInFrontUnlessToldOtherwise) {
   const support::TemporaryDirectory folder;
   DatasetIndex index;
-  for (const auto& [video, frame, yaw_rad, grey] :
-       {std::tuple(1, 1, 5.2, 10), {2, 1, 4.1, 20}, {2, 2, 5.3, 30}, {2, 3, 0.1, 40}}) {
+  for (const auto& [video, frame, yaw_rad, grey] : {std::tuple(1, 1, 5.2, 10),
+                                                    {2, 1, 4.1, 20},
+                                                    {2, 2, 5.3, 30},
+                                                    {2, 3, 0.1, 40},
+                                                    {2, 4, 5.3, 60}}) {  // of two alike the first
     const ViewEntry entry{{"cup", "cup_1", video, frame}, folder.path(), yaw_rad};
     write_view(plain(static_cast<std::uint8_t>(grey)), entry);
     index.views.push_back(entry);

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/models/catalogue/database/object_database.hpp"
@@ -105,9 +109,27 @@ TEST_F(Scans, AreTakenAsTheyAre) {
   const TurntableObject object = make_turntable_object(options_, name);
   EXPECT_EQ(object.obj, read_file(root_.path() / "toy_2" / "model.obj"));
   EXPECT_TRUE(object.png == read_file(root_.path() / "toy_2" / "texture.png"));
+  EXPECT_EQ(object.specular, 0.2);
   options_.objects = 1;
   ASSERT_EQ(object_names(options_).size(), 1U);
   EXPECT_EQ(object_names(options_)[0].object, "duck_1");
+}
+
+TEST_F(Scans, AreFoldersWithBothFilesInOrderOfTheirNames) {
+  const std::filesystem::path duck = root_.path() / "duck";
+  for (const char* name : {"zebra", "ant", "mole", "bee", "cow"}) {
+    std::filesystem::copy(duck, root_.path() / name);
+  }
+  for (int i = 0; i < 30; ++i) {
+    const std::filesystem::path half = root_.path() / ("half_" + std::to_string(i));
+    const char* file = i % 2 == 0 ? "model.obj" : "texture.png";
+    std::filesystem::create_directories(half);
+    std::filesystem::copy_file(duck / file, half / file);
+  }
+  std::vector<std::string> names;
+  for (const ObjectName& name : object_names(options_)) names.push_back(name.object);
+  EXPECT_THAT(names, testing::ElementsAre("ant_1", "bee_1", "cow_1", "duck_1", "mole_1", "toy_2_1",
+                                          "zebra_1"));
 }
 
 }  // namespace

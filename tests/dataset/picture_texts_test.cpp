@@ -59,6 +59,9 @@ TEST(DirectionBins, PutFewAnglesOnTheMiddleOfOne) {
   EXPECT_EQ(bins_for({0, 2.1, 120, 240}), 6);
   EXPECT_EQ(bins_for({359, 0.5, 120, 240}), 3);
   EXPECT_EQ(bins_for({0, 9.9, 47}), 8) << "none of up to 36 fits";
+  std::vector<double> of_37;
+  for (const int i : {0, 1, 2, 3, 5, 8, 13}) of_37.push_back(i * 360.0 / 37.0);
+  EXPECT_EQ(bins_for(of_37), 8) << "nor does any less than 37";
   EXPECT_EQ(bins_for({90}), 8);
   EXPECT_EQ(bins_for({}), 8);
   std::vector<double> turn;
@@ -105,6 +108,10 @@ TEST_F(SmallFile, OfAPoseIsAYawOrAYawAndElevationOrAMatrix) {
   EXPECT_NEAR(*pose.elevation_deg, 30.0, 1e-9);
   EXPECT_NEAR(*read_picture_pose(with("0 0 0 1 0 0 0 1 0 0 -1.1 0 0 0 0 1")).elevation_deg, 90.0,
               1e-9);
+  EXPECT_NEAR(*read_picture_pose(with("0 0 0 1 0 0 0 1 0 0 1.1 0 0 0 0 1")).elevation_deg, -90.0,
+              1e-9);
+  EXPECT_NEAR(*read_picture_pose(with("0 0 0 1 0 0 0 1 0 0 0.75 0")).elevation_deg,
+              -48.590377890729, 1e-9);
   for (const char* wrong : {"", "30 91", "30 -91", "1 2 3", "30 x", "30x", "nan", "30 inf",
                             "0 0 0 1 0 0 0 1 0 0 1 0 0"}) {
     EXPECT_THROW((void)read_picture_pose(with(wrong)), InputError) << wrong;
@@ -138,6 +145,10 @@ TEST_F(SmallFile, OfIntrinsicsMakesSense) {
   EXPECT_THROW(focal_px("10", "10"), InputError);
   EXPECT_EQ(focal_px("10.5", "10.5"), 10.5);
   EXPECT_THROW(focal_px("10.1", "9.9"), InputError);
+  EXPECT_THROW(focal_px("10.0", "10.4"), InputError);
+  EXPECT_THROW(focal_px("10.4", "10.0"), InputError);
+  EXPECT_EQ(read_intrinsics(with("# fx fy cx cy\nfx=500\ncx=1\ncy=2\n")).focal_px, 500.0)
+      << "where they are named first they have no number";
   EXPECT_THROW((void)read_intrinsics(with("fx: 500\ncx: 1\n")), InputError);
 }
 

@@ -273,5 +273,67 @@ TEST_F(Layout, WordsThatAllFilesHaveSayNothingButNumbersDo) {
   EXPECT_THAT(found(), ElementsAre("|drill_1|1", "|mug_1|1"));
 }
 
+TEST_F(Layout, AMaskMayBeInColour) {
+  put("drill/front_rgb.png", "drill/front_depth.png");
+  put("drill/front_mask.png", "other/x_depth.png");
+  put("rgb/mug/left.png", "depth/mug/left.png");
+  put("masks/mug/left.png", "other/y_depth.png");
+  const FoundPictures all = find_pictures(folder_.path(), "{object}/{view}_{*}");
+  const FoundPictures by_folder = find_pictures(folder_.path(), "{*}/{object}/{view}");
+  ASSERT_EQ(all.pictures.size(), 1U);
+  EXPECT_EQ(all.pictures[0].colour.filename(), "front_rgb.png");
+  ASSERT_TRUE(all.pictures[0].mask);
+  EXPECT_EQ(all.pictures[0].mask->filename(), "front_mask.png");
+  ASSERT_EQ(by_folder.pictures.size(), 1U);
+  EXPECT_EQ(by_folder.pictures[0].colour.parent_path(), folder_.path() / "rgb/mug");
+  ASSERT_TRUE(by_folder.pictures[0].mask);
+}
+
+TEST_F(Layout, APatternPassesByWhatItDoesNotFit) {
+  put("a_rgb.png", "a_depth.png");
+  put("b/x_30_rgb.png", "b/x_30_depth.png");
+  const FoundPictures some = find_pictures(folder_.path(), "{recording}/{object}_{yaw}_{kind}");
+  EXPECT_THAT(some.left_out, ElementsAre(HasSubstr("a_rgb.png: not of the form of --layout")));
+  EXPECT_EQ(some.pictures.size(), 1U);
+}
+
+TEST_F(Layout, ADirectionMayHaveThreeWords) {
+  put("drill_rear_left_side_rgb.png", "drill_rear_left_side_depth.png");
+  put("mug_front_rgb.png", "mug_front_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|drill_1|rear_left_side", "|mug_1|front"));
+  EXPECT_EQ(find_pictures(folder_.path(), "").layout, "{object}_{view}_{kind}");
+}
+
+TEST_F(Layout, FoldersMayBeDeeperForSome) {
+  put("drill/front_rgb.png", "drill/front_depth.png");
+  put("mug/new/left_rgb.png", "mug/new/left_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|drill_1|front", "|mug_1|left"));
+}
+
+TEST_F(Layout, FoldersThatDoNotTellTheObjectAskForALayout) {
+  const auto error_of = [&](const std::string& root, const std::vector<std::string>& folders) {
+    for (const std::string& folder : folders) {
+      const std::string stem = root + "/" + folder + "/front_";
+      put(stem + "rgb.png", stem + "depth.png");
+    }
+    try {
+      (void)find_pictures(folder_.path() / root, "");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(error_of("1", {"can/can", "mug/mug"}), HasSubstr("2 levels of folders"));
+  EXPECT_THAT(error_of("2", {"den/can/new", "den/mug/old", "hall/jug/new"}),
+              HasSubstr("3 levels of folders"));
+}
+
+TEST_F(Layout, NumbersNameObjectsOrTheirInstances) {
+  for (const char* object : {"7", "m3", "coke_1234567890"}) {
+    put(std::string(object) + "/front_rgb.png", std::string(object) + "/front_depth.png");
+  }
+  EXPECT_THAT(found(), ElementsAre("|7_1|front", "|coke_1234567890_1|front", "|m_3|front"));
+}
+
 }  // namespace
 }  // namespace vantage

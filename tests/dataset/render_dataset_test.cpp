@@ -18,6 +18,9 @@
 #include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/dataset/turntable.hpp"
+#include "vantage/models/catalogue/shapes/mesh_builders.hpp"
+#include "vantage/models/catalogue/shapes/obj.hpp"
+#include "vantage/models/catalogue/shapes/texture.hpp"
 #include "vantage/perception/dataset_reader.hpp"
 
 namespace vantage {
@@ -359,6 +362,24 @@ TEST(RenderDataset, OfModelsThatHaveMovedNothingIsMissing) {
   fs::remove_all(out / "models");
   EXPECT_THAT(missing_objects(out / "d"), testing::IsEmpty());
   EXPECT_EQ(dataset_options_text(out / "none"), "");
+}
+
+TEST(RenderDataset, CutByDepthLeavesOutWhatIsTooFlat) {
+  const support::TemporaryDirectory out;
+  DatasetOptions options = single_views(1);
+  options.cut_by_depth = true;
+  options.depth_noise = false;
+  options.edge_dropout = 0.0;
+  EXPECT_EQ(render_dataset(options, {.root = out / "mug"}).views, 1);
+  const Eigen::Vector3d size_m(0.1, 0.1, 0.003);
+  fs::create_directories(out / "models/plate");
+  write_file(out / "models/plate/model.obj",
+             to_obj(make_rounded_box(size_m, 0.001, 2, unfold_box(size_m))));
+  write_png(Image(8, 8, RgbColour::Ones()), out / "models/plate/texture.png");
+  options.models = (out / "models").string();
+  const DatasetOutcome flat = render_dataset(options, {.root = out / "plate"});
+  EXPECT_EQ(flat.rendered, 1);
+  EXPECT_EQ(flat.views, 0);
 }
 
 }  // namespace

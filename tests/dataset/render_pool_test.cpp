@@ -3,17 +3,26 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstdlib>
+#include <future>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "tests/support/shell.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/yaml.hpp"
+#include "vantage/dataset/object_renderer.hpp"
+#include "vantage/dataset/object_source.hpp"
 #include "vantage/dataset/render_dataset.hpp"
+#include "vantage/dataset/render_worker.hpp"
 #include "vantage/dataset/worker_process.hpp"
 
 namespace vantage {
@@ -194,6 +203,44 @@ TEST(WorkerProcess, DrawsInOneThreadAndKnowsTheRestOfTheEnvironment) {
   ::unsetenv("VANTAGE_TEST_TOLD");
   if (set == nullptr) ::unsetenv("LP_NUM_THREADS");
   if (set != nullptr) ::setenv("LP_NUM_THREADS", before.c_str(), 1);
+}
+
+TEST(RenderServer, GoesByTheFolderAndTheOptionsOfEachRequest) {
+  const support::TemporaryDirectory out;
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+  auto served = std::async(std::launch::async, [&] { return serve_rendering(ends[1]); });
+  DatasetOptions one_video = few_on_a_pool(2);
+  one_video.step_deg = 360.0;
+  one_video.videos = {1};
+  DatasetOptions two_videos = one_video;
+  two_videos.videos = {1, 2};
+  const std::vector<ObjectName> mugs = object_names(one_video);
+  const auto views = [&](const DatasetOptions& options, const char* folder, const ObjectName& mug) {
+    const std::string root = (out / folder).string();
+    send_message(ends[0],
+                 to_message(RenderRequestMessage{to_yaml(write_node(options)), root, mug}));
+    std::string received;
+    std::array<char, 512> buffer{};
+    while (true) {
+      const ssize_t size = ::recv(ends[0], buffer.data(), buffer.size(), 0);
+      if (size <= 0) return -1;
+      received.append(buffer.data(), static_cast<std::size_t>(size));
+      if (const auto message = take_message(received)) {
+        EXPECT_EQ(parse_answer(*message).error, "");
+        return parse_answer(*message).views;
+      }
+    }
+  };
+  EXPECT_EQ(views(one_video, "a", mugs[0]), 1);
+  EXPECT_EQ(views(one_video, "b", mugs[0]), 1);
+  EXPECT_EQ(views(two_videos, "b", mugs[1]), 2);
+  ::shutdown(ends[0], SHUT_WR);
+  EXPECT_EQ(served.get(), ExitCode::done);
+  for (const int end : ends) ::close(end);
+  EXPECT_TRUE(fs::exists(object_folder(out / "a", mugs[0])));
+  EXPECT_TRUE(fs::exists(object_folder(out / "b", mugs[0])));
+  EXPECT_TRUE(fs::exists(object_folder(out / "b", mugs[1])));
 }
 
 }  // namespace

@@ -147,6 +147,7 @@ TEST(Sensing, ColoursHaveTheGainOfTheirSession) {
   EXPECT_EQ(colours_with({1.0, 1.0, 1.0}), (std::vector<int>{200, 100, 30}));
   EXPECT_EQ(colours_with({0.5, 2.0, 1.25}), (std::vector<int>{100, 200, 38})) << "37.5 is 38";
   EXPECT_EQ(colours_with({1.5, 3.0, 0.98}), (std::vector<int>{255, 255, 29})) << "29.4 is 29";
+  EXPECT_EQ(colours_with({0.0, 1.0, 1.0}), (std::vector<int>{0, 100, 30}));
 }
 
 TEST(Sensing, DepthIsMeasuredFromTenCentimetresToFiveMetres) {
@@ -212,6 +213,30 @@ TEST(Sensing, ThePixelIsWhatItsMiddleRayMeets) {
   EXPECT_EQ(count(view.mask), 14);
   EXPECT_EQ(view.focal_px, 570.3);
   EXPECT_LT((view.up - Eigen::Vector3d(0.0, -std::cos(0.7), -std::sin(0.7))).norm(), 1e-12);
+}
+
+TEST(Sensing, MaskReachesAlmostToTheEdgeOfTheWindow) {
+  RenderedImages images = image();
+  for (std::size_t i = 0; i < images.segmentation.size(); ++i) {
+    const auto inside = [](std::size_t at) { return at >= 2 && at <= 12; };
+    images.segmentation[i] = inside(i / 15) && inside(i % 15) ? kObject : 1;
+  }
+  DatasetOptions options = exact();
+  options.mask_growth_px = 1;
+  EXPECT_EQ(count(sensed(options, images).mask), 13 * 13);
+}
+
+/// The corners of the margin are beside no edge.
+TEST(Sensing, AnEdgeIsBetweenPixelsOfOneRowOrColumn) {
+  DatasetOptions options = exact();
+  options.edge_dropout = 1.0;
+  options.margin_px = 1;
+  const ObjectView view = sensed(options);
+  ASSERT_EQ(view.depth_m.size(), 7U * 5U);
+  EXPECT_EQ(std::ranges::count(view.depth_m, 0.0F), 28);
+  for (const std::size_t corner : {0U, 6U, 28U, 34U}) {
+    EXPECT_FLOAT_EQ(view.depth_m[corner], 0.8F) << corner;
+  }
 }
 
 }  // namespace

@@ -194,6 +194,9 @@ TEST(Window, IsAsWideAsItsSphere) {
   EXPECT_EQ(window_radius_px(object, session, "pole"), 167 + 8);
   session.distance_m = 0.6;
   EXPECT_EQ(window_radius_px(object, session, "pole"), 230 + 8);
+  session.distance_m = 0.5967;
+  EXPECT_EQ(window_radius_px(object, session, "pole"), 239)
+      << "half of the image but for its middle";
   session.distance_m = 0.595;
   EXPECT_THROW(window_radius_px(object, session, "pole"), InputError);
 }
@@ -263,6 +266,24 @@ TEST(Sessions, AreDrawnInTheOrderOfTheirMembers) {
   EXPECT_NEAR(session.offset_m.x(), off_m * std::cos(heading_rad), 1e-12);
   EXPECT_NEAR(session.offset_m.y(), off_m * std::sin(heading_rad), 1e-12);
   EXPECT_NEAR(session.first_yaw_rad, again.uniform(0.0, pi / 6.0), 1e-12);
+  const auto varied = [&](double middle, double range) {
+    return middle + options.lighting * range * again.uniform(-1.0, 1.0);
+  };
+  EXPECT_NEAR(session.lamp_heading_rad, varied(0.6, 1.2), 1e-12);
+  EXPECT_NEAR(session.lamp_elevation_rad, varied(1.0, 0.25), 1e-12);
+  EXPECT_NEAR(session.ambient, varied(0.42, 0.06), 1e-12);
+  EXPECT_NEAR(session.table, varied(0.62, 0.12), 1e-12);
+  const double exposure = varied(1.0, 0.08);
+  for (const double gain : session.gain) EXPECT_NEAR(gain, exposure * varied(1.0, 0.03), 1e-12);
+}
+
+TEST(Sessions, OfTheGreatestChangesOfLightAreNotCutOff) {
+  Rng rng(3);
+  double brightest = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    brightest = std::max(brightest, draw_session({.lighting = 2.0}, 0.5, rng).ambient);
+  }
+  EXPECT_NEAR(brightest, 0.42 + 2.0 * 0.06, 0.005);
 }
 
 TEST(Lamp, LightsTheFaceThatItStandsBefore) {
@@ -388,6 +409,17 @@ TEST_F(Cube, CutOutByDepthIsOfWhatTheCameraMeasured) {
   std::vector<std::uint8_t> halves;
   for (const int value : exact.rgb) halves.push_back(static_cast<std::uint8_t>((value + 1) / 2));
   EXPECT_EQ(view_with(options).rgb, halves);
+}
+
+TEST_F(Cube, IsDrawnByAsManyRaysAPixelAsAskedFor) {
+  options_.supersampling = 3;
+  Turntable finer(support::coloured_cube(), support::plain_session(kElevation_rad), options_,
+                  "cube", make_offscreen_context());
+  RenderedImages images;
+  finer.draw(0.0, images);
+  const RenderedImages plain = draw(0.0);
+  EXPECT_EQ(images.width_px, 3 * plain.width_px);
+  EXPECT_EQ(images.height_px, 3 * plain.height_px);
 }
 
 }  // namespace

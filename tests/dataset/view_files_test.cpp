@@ -1,7 +1,9 @@
 #include "vantage/dataset/view_files.hpp"
 
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 
+#include <cstdint>
 #include <filesystem>
 
 #include "tests/support/temporary_directory.hpp"
@@ -66,6 +68,9 @@ TEST(ViewFiles, DepthIsInWholeMillimetres) {
   view.depth_m = {0.0014F, 0.0016F, -1.0F, 65.0F, 70.0F};
   const ViewEntry entry{{"cup", "cup_1", 2, 1}, folder.path(), 0.0};
   write_view(view, entry);
+  const cv::Mat written = cv::imread(entry.file("depthcrop.png").string(), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(written.at<std::uint16_t>(0, 3), 65000);
+  EXPECT_EQ(written.at<std::uint16_t>(0, 4), 65535) << "the most there is";
   const std::vector<float> read = load_view(entry).view.depth_m;
   ASSERT_EQ(read.size(), 5U);
   EXPECT_FLOAT_EQ(read[0], 0.001F);

@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/recognition/made_up.hpp"
 
@@ -245,6 +249,68 @@ TEST_F(ChangeDetection, WithoutAnotherViewItIsDecidedWhereItStands) {
   ASSERT_EQ(report.recognition.views.size(), 1U);
   EXPECT_EQ(report.recognition.views[0].view_rad, 0.5);
   EXPECT_EQ(turns, 0);
+}
+
+/// The first view tells nothing; the second is from behind.
+TEST(ChangeDetectionInClosedForm, FollowsTheTurnOfTheCamera) {
+  Rng rng(1);
+  const Recogniser recogniser = test::made_up_recogniser(2, {1.0}, {}, rng, 2);
+  ChangeOptions options;
+  options.recognition.max_views = 2;
+  options.recognition.transition = RigidTransition{.slip = 0.0};
+  options.prior_pose = 0.2;
+  options.prior_object = 0.3;
+  int turns = 0;
+  const ObjectCamera camera{
+      .extract =
+          [&](std::size_t) {
+            Eigen::VectorXd log_likelihood = Eigen::VectorXd::Zero(4);
+            if (turns > 0) log_likelihood << -2.0, 0.0, -1.0, -3.0;
+            return ExtractedFeature{.result = {Eigen::VectorXf::Zero(10), {}},
+                                    .log_likelihood = log_likelihood};
+          },
+      .bearing_rad = [&] { return turns * std::numbers::pi; },
+      .actions = [] { return std::vector<ObjectViewAction>{{.yaw_rad = std::numbers::pi}}; },
+      .turn = [&](const ObjectViewAction&) { ++turns; }};
+  const ChangeReport report = detect_change(recogniser, options, 0, camera, rng);
+  EXPECT_EQ(turns, 1);
+  const double changed = 0.2 * std::exp(-2.0) + 0.15 * std::exp(-1.0) + 0.15 * std::exp(-3.0);
+  EXPECT_NEAR(report.p_changed, changed / (changed + 0.5), 1e-9);
+}
+
+/// Each state measures its number, with a variance of 1.
+Recogniser measuring_numbers(int objects, int bins, const std::vector<float>& numbers) {
+  ObjectStates states{.objects = {}, .categories = {"a"}, .category_of = {}, .bins = bins};
+  for (int k = 0; k < objects; ++k) {
+    states.objects.push_back("a_" + std::to_string(k + 1));
+    states.category_of.push_back(0);
+  }
+  const auto count = std::ssize(numbers);
+  ObservationModel model{.feature = "colour",
+                         .mean = Eigen::MatrixXf(1, count),
+                         .variance = Eigen::MatrixXf::Ones(1, count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    model.mean(0, i) = numbers[static_cast<std::size_t>(i)];
+  }
+  return make_recogniser(states, {{TrainedFeature(Colour{}, 0.0), model}}, 1);
+}
+
+TEST(TellsApart, GoesRoundEachObjectAlone) {
+  const Recogniser recogniser =
+      measuring_numbers(4, 2, {20.0F, 20.0F, 0.0F, 0.0F, 20.0F, 20.0F, 20.0F, 20.0F});
+  EXPECT_FALSE(distinguishable(recogniser, 2, 3)) << "two sides that are alike";
+  EXPECT_TRUE(distinguishable(recogniser, 2, 4));
+  EXPECT_TRUE(distinguishable(recogniser, 2, 3, 0.5)) << "half of all guesses are wrong";
+}
+
+TEST(TellsApart, IsUpToFiveErrorsOfAHundred) {
+  const auto apart = [](double nats) {
+    const auto number = static_cast<float>(std::sqrt(8.0 * nats));
+    return distinguishable(measuring_numbers(2, 1, {0.0F, number}), 0, 1);
+  };
+  EXPECT_TRUE(apart(2.4));  // 1/2 exp(-2.4) = 0.045
+  EXPECT_FALSE(apart(2.2));
+  EXPECT_TRUE(apart(2.9));
 }
 
 }  // namespace

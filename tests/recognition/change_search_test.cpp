@@ -268,5 +268,12 @@ TEST_F(ChangeOfOnePose, WhatIsBelievedIsTheMixtureOfBoth) {
   EXPECT_EQ(search_.recognition.belief.log_p, search_.hypotheses.mixture().log_p);
 }
 
+TEST(ChangeVerdict, IsATurnWhereAnotherObjectIsNoMoreProbable) {
+  const Recogniser recogniser = two_of_bins(1);
+  ChangeSearch search = search_after(1, 0, 0.9);
+  search.hypotheses.changed.log_p = Eigen::Vector2d::Zero();
+  EXPECT_EQ(verdict(recogniser, ChangeOptions{}, search), Change::pose);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/recognition/made_up.hpp"
 #include "vantage/planners/trajectory/flight_planner.hpp"
@@ -229,6 +231,8 @@ TEST(BeliefOfLooks, IsTurnedFromEachToTheNext) {
   take(6, 1);
   EXPECT_EQ(most_probable_state(object.recognition.belief), recogniser.states.state(0, 1));
   EXPECT_EQ(observations.total(), 3);
+  EXPECT_EQ(object.observations.back().report.features, std::vector<std::string>{"colour"})
+      << "nothing is left out of what is known already";
 }
 
 TEST(WaysOn, TheFirstThatIsClearElseTheOneThatKeepsOffFarthest) {
@@ -248,6 +252,30 @@ TEST(TrajectoryMethod, NamesWhatItsCostLeavesOut) {
   cost.information = false;
   cost.centre_weight = 0.0;
   EXPECT_EQ(trajectory_method_name(Stomp{}, cost), "stomp without c_i without c_v");
+}
+
+TEST_F(ObservationsOfAnObject, CountFromJustAsFarApartAndForJustAsMuch) {
+  ObservationOptions just_as_much;
+  just_as_much.min_gain_nats = observations_.objects().front().gain_nats[0];
+  ObjectObservations observations(recogniser_, just_as_much, RigidTransition{});
+  observations.found(7, {1.0, 2.0, 0.9});
+  EXPECT_TRUE(observations.wants(7, kGood, from(0.0)));
+  ObservationOptions just_as_far;
+  just_as_far.apart_rad = std::atan2(1.0, 1.0);
+  just_as_far.min_gain_nats = 0.0;
+  ObjectObservations apart(recogniser_, just_as_far, RigidTransition{});
+  apart.found(7, {1.0, 2.0, 0.9});
+  apart.take(7, kGood, view_, from(0.0), 0.0, rng_);
+  EXPECT_TRUE(apart.wants(7, kGood, make_pose({2.0, 3.0, 1.8}, 0.0)));
+}
+
+TEST(PriorEntropy, OfKnownObjectsIsTheLogarithmOfTheirNumber) {
+  for (int objects = 2; objects <= 40; ++objects) {
+    const Recogniser recogniser{
+        .states = test::near_duplicate_families(objects, 1).states, .features = {}, .tables = {}};
+    const ObjectObservations observations(recogniser, {}, RigidTransition{});
+    EXPECT_EQ(observations.prior_entropy_nats(), std::log(static_cast<double>(objects)));
+  }
 }
 
 }  // namespace

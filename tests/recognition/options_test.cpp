@@ -152,6 +152,9 @@ TEST(ChangeOptionChecks, LeaveRoomForBothAndKeepTheThresholdBetween) {
       check_options(ChangeOptions{.threshold = 0.5, .unchanged_below = 0.5, .changed_above = 0.5}));
   EXPECT_THROW(check_options(ChangeOptions{.threshold = 0.5, .unchanged_below = 0.6}), ConfigError);
   EXPECT_THROW(check_options(ChangeOptions{.threshold = 0.5, .changed_above = 0.4}), ConfigError);
+  ChangeOptions options;
+  options.empty_views = 0;
+  EXPECT_THROW(check_options(options), ConfigError) << "each is within its range, too";
 }
 
 TEST(RecognitionDefaults, OfViewsAreOfNothingSeen) {
@@ -201,6 +204,8 @@ TEST(RecognitionDefaults, OfTrainingAreOfOneThread) {
   EXPECT_EQ(LongWork{}.threads, 1);
   EXPECT_EQ(HoldOutOptions{}.seed, 1U);
   EXPECT_FALSE(HoldOutOptions{}.only_seen);
+  EXPECT_EQ(CalibrationFold{}.first, 0);
+  EXPECT_EQ(CalibrationFold{}.count, 0);
   EXPECT_EQ(ShownView{}.known, 0.0);
   EXPECT_EQ(ShownView{}.instance, 0.0);
   EXPECT_EQ(ShownView{}.category, 0.0);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/belief/objects/baum_welch.hpp"
 #include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/recognition/recognition.hpp"
@@ -244,6 +245,28 @@ TEST(Recogniser, OptionsAreInTheirRange) {
   RecogniserOptions options;
   options.unknown_prior = 1.0;
   expect_error([&] { make_recogniser(small_model(), options, 1); }, "unknown_prior");
+}
+
+TEST(Recogniser, HasTheTransitionThatItsModelLearnt) {
+  RecognitionModel model = small_model();
+  const LearnedTransition rigid = make_recogniser(model, {}, 1).transition;
+  ASSERT_EQ(rigid.slip.size(), 4U);
+  EXPECT_NEAR(rigid.slip[0], 0.9, 1e-12);
+  model.transitions = prior_counts(RigidTransition{.slip = 0.4}, 2, 10.0);
+  EXPECT_NEAR(make_recogniser(model, {}, 1).transition.slip[0], 0.6, 1e-12);
+}
+
+TEST(Recogniser, MayKnowASingleState) {
+  RecognitionModel model = small_model();
+  model.states = {.objects = {"a_1"}, .categories = {"a"}, .category_of = {0}, .bins = 1};
+  for (FeatureModel& feature : model.features) {
+    feature.statistics = empty_statistics(feature.statistics.dimensions(), 1);
+    for (const float value : {1.0F, 2.0F, 4.0F}) {
+      add_view(feature.statistics, 0,
+               Eigen::VectorXf::Constant(feature.statistics.dimensions(), value));
+    }
+  }
+  EXPECT_EQ(make_recogniser(model, {}, 1).states.size(), 1);
 }
 
 }  // namespace

@@ -155,6 +155,7 @@ TEST_F(NearDuplicateMugs, LikelihoodsThatAreKnownCountAsTheyAre) {
 TEST(Weighted, IsToThePowerOfTheWeight) {
   EXPECT_EQ(weighted(Eigen::Vector2d(-3.0, 2.0), 1.0), Eigen::VectorXd(Eigen::Vector2d(-3.0, 2.0)));
   EXPECT_EQ(weighted(Eigen::Vector2d(-3.0, 2.0), 0.5), Eigen::VectorXd(Eigen::Vector2d(-1.5, 1.0)));
+  EXPECT_EQ(weighted(Eigen::Vector2d(-3.0, 2.0), 2.0), Eigen::VectorXd(Eigen::Vector2d(-6.0, 4.0)));
 }
 
 TEST_F(NearDuplicateMugs, ALearnedTransitionWithoutSlipsIsTheModels) {
@@ -341,6 +342,44 @@ TEST_F(NearDuplicateMugs, ExtractingFromAViewTakesItsTimeOfTheWhole) {
   const ExtractedFeature extracted = extract(0);
   EXPECT_GE(extracted.time_s, 0.0);
   EXPECT_LE(extracted.time_s, wall_s() - start_s);
+}
+
+TEST_F(NearDuplicateMugs, AFeatureIsComparedWithTheOneBeforeIt) {
+  options_.features.stop = GainDecreasing{};
+  Recognition recognition = begin_recognition(recogniser_);
+  update_with_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  EXPECT_THAT(recognition.views[0].features, ElementsAre("colour")) << "the other tells less";
+}
+
+/// From the front they look alike, from behind they differ.
+TEST_F(NearDuplicateMugs, TheLoopTurnsTheCameraAndWhatIsBelieved) {
+  int turns = 0;
+  const ObjectCamera camera{
+      .extract = [&](std::size_t feature) { return measuring(turns > 0 ? 3 : 2)(feature); },
+      .bearing_rad = [&] { return turns * std::numbers::pi; },
+      .actions = [] { return std::vector<ObjectViewAction>{{.yaw_rad = std::numbers::pi}}; },
+      .turn = [&](const ObjectViewAction&) { ++turns; }};
+  const Recognition known = recognise(recogniser_, options_, camera, rng_);
+  EXPECT_EQ(turns, 1);
+  ASSERT_THAT(known.views, SizeIs(2));
+  EXPECT_EQ(known.views[1].view_rad, std::numbers::pi);
+  EXPECT_NEAR(p_state(known.belief)[3], 1.0, 1e-6);
+}
+
+TEST(Recognition, GoesByWhatIsKnownOfASingleStateToo) {
+  Rng rng(1);
+  const Recogniser recogniser = test::made_up_recogniser(1, {1.0}, {}, rng, 1);
+  RecognitionOptions options;
+  options.all_features = true;
+  const ExtractFeature impossible = [&](std::size_t) {
+    return ExtractedFeature{
+        .result = {Eigen::VectorXf::Zero(10), {}},
+        .log_likelihood = Eigen::VectorXd::Constant(1, -std::numeric_limits<double>::infinity())};
+  };
+  Recognition recognition = begin_recognition(recogniser);
+  update_with_view(recogniser, options, impossible, 0.0, recognition, rng);
+  EXPECT_THAT(recognition.views[0].features, IsEmpty());
+  EXPECT_THAT(recognition.views[0].skipped, SizeIs(1));
 }
 
 }  // namespace

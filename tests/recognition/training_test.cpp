@@ -367,53 +367,6 @@ TEST(RepeatedViews, CountForLess) {
   EXPECT_NEAR(p_after(1.0), p_of(1.0), 1e-9);
 }
 
-/// A flat plate 1 m before the camera, a pixel of it 1 cm wide.
-void put_plate(const std::filesystem::path& root, const std::string& object, int video, int frame,
-               int width_px, int height_px) {
-  const auto folder = root / "plate" / object;
-  std::filesystem::create_directories(folder);
-  const std::string stem = (folder / fmt::format("{}_{}_{}", object, video, frame)).string();
-  const cv::Size size(width_px, height_px);
-  cv::imwrite(stem + "_crop.png", cv::Mat(size, CV_8UC3, cv::Scalar::all(90.0)));
-  cv::imwrite(stem + "_depthcrop.png", cv::Mat(size, CV_16UC1, cv::Scalar(1000.0)));
-  cv::imwrite(stem + "_maskcrop.png", cv::Mat(size, CV_8UC1, cv::Scalar(255.0)));
-  write_file(stem + "_loc.txt", "300,200\n");
-  write_file(stem + "_pose.txt", "0 0\n");
-}
-
-/// Learnt from pictures of two sides, by width and height.
-RecognitionModel model_of_plates(const std::filesystem::path& folder) {
-  DatasetIndex dataset = index_dataset(folder);
-  const auto notes = std::make_shared<PictureNotes>();
-  notes->bins = 2;
-  notes->focal_px = 100.0;
-  for (ViewEntry& view : dataset.views) view.notes = notes;
-  TrainingOptions options;
-  options.features = {BoundingBox{}};
-  options.variance = ShrunkVariance{.floor = 0.5};
-  options.transition_prior_moves = 0.0;
-  options.unknown = false;
-  return train_recognition(dataset, options, {});
-}
-
-/// Heights are exchanged from one recording to the other, only widths tell the plates. The variance
-/// of heights is 2 px^2, the mean of the three numbers 2/3 px^2. With widths of f times that mean
-/// the lead is (3 * 10^2 / f - 20^2 -+ 40) / 4 nats: all are right with the floor of 0.5 that the
-/// options have, and all are wrong with 1.
-TEST(FewPictures, HaveTheHighestFloorThatIsAsGood) {
-  const support::TemporaryDirectory folder;
-  for (const int video : {1, 2}) {
-    for (const int frame : {1, 2}) {
-      const int off_px = 2 * frame - 3;
-      put_plate(folder.path(), "plate_1", video, frame, 20, (video == 1 ? 30 : 50) + off_px);
-      put_plate(folder.path(), "plate_2", video, frame, 30, (video == 1 ? 50 : 30) + off_px);
-    }
-  }
-  const RecognitionModel model = model_of_plates(folder.path());
-  EXPECT_EQ(std::get<ShrunkVariance>(floored(model, ShrunkVariance{})).floor, 0.3)
-      << "of 0, 0.1, 0.3, 1 and 3";
-}
-
 TEST_F(Training, LeavingOutAllObjectsLeavesNone) {
   options_.leave_out = {"cup_1", "cup_2", "hat_1"};
   expect_error("leave_out: leaves no object to train on");
@@ -427,26 +380,6 @@ TEST_F(Training, AFeatureThatNoViewHasIsNamed) {
 TEST_F(Training, WithoutPriorMovesNoTransitionIsLearnt) {
   options_.transition_prior_moves = 0.0;
   EXPECT_EQ(train().transitions.slip.size(), 0);
-}
-
-/// As above, with six pictures of either plate in each of the two recordings; where there are as
-/// many as six for each of four states, the floor is left to the options.
-TEST(FewPictures, AreLessThanSixOfEachState) {
-  for (const bool one_less : {false, true}) {
-    const support::TemporaryDirectory folder;
-    for (const int video : {1, 2}) {
-      for (int frame = 1; frame <= 6; ++frame) {
-        const int off_px = frame <= 3 ? frame - 4 : frame - 3;
-        put_plate(folder.path(), "plate_1", video, frame, 20, (video == 1 ? 30 : 50) + off_px);
-        if (one_less && video == 2 && frame == 6) continue;
-        put_plate(folder.path(), "plate_2", video, frame, 30, (video == 1 ? 50 : 30) + off_px);
-      }
-    }
-    const RecognitionModel model = model_of_plates(folder.path());
-    const double floor =
-        std::get<ShrunkVariance>(floored(model, ShrunkVariance{.floor = 0.0})).floor;
-    EXPECT_EQ(floor > 0.0, one_less) << floor;
-  }
 }
 
 }  // namespace

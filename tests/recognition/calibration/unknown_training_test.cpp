@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -83,15 +84,39 @@ TEST(MostLikelyFactors, DoNotDependOnHowManyViewsThereAreOfAKind) {
 /// Views of each kind of unknown objects fit the other kind not at all, so that both factors are f,
 /// where s(f - 6) = s(2 + ln 2 - f), s the logistic function.
 TEST(MostLikelyFactors, OfBothKindsCountHalfTogether) {
+  for (const auto& [of_known, of_instances, of_categories] : {std::array{12, 3, 7}, {1, 1, 1}}) {
+    std::vector<ShownView> views(
+        static_cast<std::size_t>(of_known),
+        {.kind = Kind::known, .known = 6.0, .instance = 0.0, .category = 0.0});
+    views.insert(views.end(), static_cast<std::size_t>(of_instances),
+                 {.kind = Kind::instance, .known = 2.0, .instance = 0.0, .category = -1000.0});
+    views.insert(views.end(), static_cast<std::size_t>(of_categories),
+                 {.kind = Kind::category, .known = 2.0, .instance = -1000.0, .category = 0.0});
+    const UnknownFactors found = most_likely_factors(views);
+    EXPECT_NEAR(found.instance, 0.5 * (8.0 + std::numbers::ln2), 1e-5);
+    EXPECT_NEAR(found.category, 0.5 * (8.0 + std::numbers::ln2), 1e-5);
+  }
+}
+
+/// As above, with 205 and 199 in the place of 6 and 2.
+TEST(MostLikelyFactors, OfBothKindsAreFoundFarAway) {
   std::vector<ShownView> views(
-      12, {.kind = Kind::known, .known = 6.0, .instance = 0.0, .category = 0.0});
-  views.insert(views.end(), 3,
-               {.kind = Kind::instance, .known = 2.0, .instance = 0.0, .category = -1000.0});
-  views.insert(views.end(), 7,
-               {.kind = Kind::category, .known = 2.0, .instance = -1000.0, .category = 0.0});
+      4, {.kind = Kind::known, .known = 205.0, .instance = 0.0, .category = 0.0});
+  views.insert(views.end(), 4,
+               {.kind = Kind::instance, .known = 199.0, .instance = 0.0, .category = -1e5});
+  views.insert(views.end(), 4,
+               {.kind = Kind::category, .known = 199.0, .instance = -1e5, .category = 0.0});
   const UnknownFactors found = most_likely_factors(views);
-  EXPECT_NEAR(found.instance, 0.5 * (8.0 + std::numbers::ln2), 1e-5);
-  EXPECT_NEAR(found.category, 0.5 * (8.0 + std::numbers::ln2), 1e-5);
+  EXPECT_NEAR(found.instance, 0.5 * (404.0 + std::numbers::ln2), 1e-4);
+  EXPECT_NEAR(found.category, 0.5 * (404.0 + std::numbers::ln2), 1e-4);
+}
+
+/// The first step, of 10, leads too far.
+TEST(MostLikelyFactors, OfWhatNothingTellsApartMakeBothAsLikely) {
+  const std::vector<ShownView> views{
+      {.kind = Kind::known, .known = 3.0, .instance = kImpossible, .category = 0.0},
+      {.kind = Kind::category, .known = 3.0, .instance = kImpossible, .category = 0.0}};
+  EXPECT_NEAR(most_likely_factors(views).category, 3.0, 1e-5);
 }
 
 TEST(MostLikelyFactors, AreFoundFarAway) {
@@ -137,8 +162,10 @@ struct Learnt {
 };
 
 /// @param psi of features that all measure the same
+/// @param sides bins that objects are shown in, in turn
 Learnt learn(const PointWorld& world, int views_each, Rng& rng,
-             const std::vector<double>& psi = {1.0}, bool only_seen = false) {
+             const std::vector<double>& psi = {1.0}, bool only_seen = false,
+             const std::vector<int>& sides = {0}) {
   RecognitionModel model;
   model.states = world.states;
   model.features.resize(
@@ -153,7 +180,7 @@ Learnt learn(const PointWorld& world, int views_each, Rng& rng,
       view.name = {.category = "c", .object = world.states.objects[object], .video = 1, .frame = i};
       view.yaw_rad = i * 2.0 * std::numbers::pi / views_each;  // no burst of one direction
       view.features.resize(psi.size(), {PointWorld::seen(world.point[object], rng), {}});
-      shown.push_back(world.states.state(k, 0));
+      shown.push_back(world.states.state(k, sides[static_cast<std::size_t>(i) % sides.size()]));
     }
   }
   const Calibration calibration = hold_out(
@@ -254,6 +281,7 @@ TEST(CalibrateUnknown, NeedsThreeObjects) {
   world.states.category_of.resize(2);
   world.point.resize(2);
   EXPECT_FALSE(learn(world, 20, rng).factors[0]);
+  EXPECT_FALSE(learn(world, 20, rng, {1.0, 0.0}).factors[1]) << "whatever the feature says";
 }
 
 /// They are at 6000, farther than any that a feature has.
@@ -266,13 +294,29 @@ TEST(MostLikelyFactors, AreLookedForByFiveHundredStepsOfTen) {
 }
 
 /// The first of the world's objects, moved to there.
-std::optional<UnknownFactors> factors_of_points(const std::vector<Eigen::Vector2d>& points) {
+std::optional<UnknownFactors> factors_of_points(const std::vector<Eigen::Vector2d>& points,
+                                                double psi = 1.0, int views_each = 60) {
   Rng rng(9);
   PointWorld world(rng);
   world.states.objects.resize(points.size());
   world.states.category_of.resize(points.size());
   world.point = points;
-  return learn(world, 60, rng).factors[0];
+  return learn(world, views_each, rng, {psi}).factors[0];
+}
+
+std::vector<Eigen::Vector2d> row_of_four(double step) {
+  return {{0.0, 0.0}, {step, 0.0}, {2.0 * step, 0.0}, {3.0 * step, 0.0}};
+}
+
+/// D = step^2 / (8 * 0.1^2), against ln 50 = 3.912; of four that hang together none is left out.
+TEST(CalibrateUnknown, TakesForNearDuplicateWhatOneOfAHundredDecisionsConfuses) {
+  EXPECT_FALSE(factors_of_points(row_of_four(0.1 * std::sqrt(8.0 * 3.55)), 1.0, 1000));
+  EXPECT_TRUE(factors_of_points(row_of_four(0.1 * std::sqrt(8.0 * 4.25)), 1.0, 1000));
+}
+
+TEST(CalibrateUnknown, TakesForNearDuplicateWhatPsiMakesAlike) {
+  EXPECT_TRUE(factors_of_points(row_of_four(1.0))) << "12.5 nats apart";
+  EXPECT_FALSE(factors_of_points(row_of_four(1.0), 0.2)) << "2.5 nats apart";
 }
 
 TEST(CalibrateUnknown, NeedsFiveObjectsWhereAllHangTogether) {
@@ -314,6 +358,86 @@ TEST(CalibrateUnknown, OfAFeatureThatSaysNothingThereAreSomeWhateverOthersLack) 
   EXPECT_FALSE(learnt.factors[0]);
   ASSERT_TRUE(learnt.factors[1]);
   EXPECT_EQ(learnt.factors[1]->instance, 0.0);
+}
+
+TEST(CalibrateUnknown, OfAFeatureThatSaysNothingLeavesTheNextToBeLearnt) {
+  Rng rng(9);
+  const PointWorld world(rng);
+  const Learnt learnt = learn(world, 20, rng, {0.0, 1.0});
+  ASSERT_TRUE(learnt.factors[1]);
+  EXPECT_NE(learnt.factors[1]->instance, 0.0);
+}
+
+TEST(CalibrateUnknown, GoesByTheSidesThatWereShownWhicheverTheyAre) {
+  const auto factors = [](int bins, const std::vector<int>& sides) {
+    Rng rng(9);
+    PointWorld world(rng);
+    world.states.bins = bins;
+    return *learn(world, 40, rng, {1.0}, true, sides).factors[0];
+  };
+  const UnknownFactors all = factors(2, {0, 1});
+  for (const std::vector<int>& sides : {std::vector{0, 2}, {1, 3}}) {
+    const UnknownFactors some = factors(4, sides);
+    EXPECT_NEAR(some.instance, all.instance, 0.3);
+    EXPECT_NEAR(some.category, all.category, 0.3);
+  }
+}
+
+/// Where none but one can be left out it is learnt from that one, which is far away.
+TEST(CalibrateUnknown, LeavesOutNoneThatATwinWouldExplain) {
+  Rng rng(9);
+  PointWorld world(rng);
+  world.point = row_of_four(0.25);
+  world.point.emplace_back(10.0, 0.0);
+  world.states.objects.resize(5);
+  world.states.category_of.assign(5, 0);
+  const Learnt learnt = learn(world, 60, rng);
+  ASSERT_TRUE(learnt.factors[0]);
+  EXPECT_LT(learnt.factors[0]->instance, -10.0);
+}
+
+/// Six points far apart, each with a twin that is of the next category. With a category all its
+/// twins are left out, so that what is shown is like nothing known.
+TEST(CalibrateUnknown, LeavesOutTwinsInOtherCategoriesToo) {
+  Rng rng(9);
+  PointWorld world(rng);
+  world.states.objects.clear();
+  world.states.category_of.clear();
+  world.states.categories.resize(6);
+  world.point.clear();
+  for (int k = 0; k < 6; ++k) {
+    const double angle = k * std::numbers::pi / 3.0;
+    const Eigen::Vector2d at(10.0 * std::cos(angle), 10.0 * std::sin(angle));
+    world.add(k, at);
+    world.add((k + 1) % 6, at + Eigen::Vector2d(0.02, 0.0));
+  }
+  const Learnt learnt = learn(world, 20, rng);
+  ASSERT_TRUE(learnt.factors[0]);
+  EXPECT_LT(learnt.factors[0]->category, -10.0);
+  EXPECT_NE(learnt.factors[0]->category, learnt.factors[0]->instance);
+}
+
+/// Of a category whose only object is left out nothing is known.
+TEST(CalibrateUnknown, OfCategoriesOfOneObjectLearnsFromCategoriesAlone) {
+  Rng rng(9);
+  PointWorld world(rng);
+  world.states.objects.resize(3);
+  world.states.category_of = {0, 1, 2};
+  world.states.categories.resize(3);
+  world.point = {{0.0, 0.0}, {10.0, 0.0}, {0.0, 10.0}};
+  const Learnt learnt = learn(world, 60, rng);
+  ASSERT_TRUE(learnt.factors[0]);
+  EXPECT_EQ(learnt.factors[0]->instance, learnt.factors[0]->category);
+  EXPECT_LT(std::abs(learnt.factors[0]->category), 1000.0);
+}
+
+/// At first all hang together, then all but one, which is less than half of them. Only what is
+/// more alike yet is left out with its twins then, so that all can be.
+TEST(CalibrateUnknown, LearnsFromHalfOfTheObjectsOrMore) {
+  const auto factors = factors_of_points(
+      {{0.0, 0.0}, {0.28, 0.0}, {0.56, 0.0}, {0.84, 0.0}, {1.346, 0.0}}, 1.0, 400);
+  ASSERT_TRUE(factors);
+  EXPECT_GT(factors->instance, -3.0);
 }
 
 }  // namespace

@@ -5,7 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace vantage {
 namespace {
@@ -17,7 +22,9 @@ constexpr int kRecordings = 3;
 /// Views whose noise is `shared` to this share of its variance among all of one object in one
 /// recording, which is a folder or a video.
 /// @param beside_a_mute of two features, the first of which tells nothing
-double learnt(double shared, int recordings, bool by_video = false, bool beside_a_mute = false) {
+/// @param burst that many first views of each series share all of their noise
+double learnt(double shared, int recordings, bool by_video = false, bool beside_a_mute = false,
+              int burst = 0) {
   RecognitionModel model;
   model.states.bins = kBins;
   model.states.categories = {"cup"};
@@ -45,8 +52,9 @@ double learnt(double shared, int recordings, bool by_video = false, bool beside_
         if (by_video) view.name.video += recording;
         view.folder = fmt::format("/data/{}/cup/{}", by_video ? 0 : recording, view.name.object);
         view.yaw_rad = (i % kBins) * 2.0 * std::numbers::pi / kBins;
+        const double of_all = i < burst ? 1.0 : shared;
         const Eigen::Vector3d seen =
-            at[object] + std::sqrt(shared) * common + std::sqrt(1.0 - shared) * noise();
+            at[object] + std::sqrt(of_all) * common + std::sqrt(1.0 - of_all) * noise();
         view.features.push_back({seen.cast<float>(), {}});
         shown.push_back(model.states.state(k, i % kBins));
       }
@@ -73,6 +81,7 @@ TEST(ViewCorrelation, IsWhatTheViewsOfARecordingShare) {
   const double much = learnt(0.8, kRecordings);
   EXPECT_NEAR(little, 0.3, 0.15);
   EXPECT_GE(much, little + 0.2);
+  EXPECT_NEAR(20.0 * little, std::round(20.0 * little), 1e-9) << "in twentieths";
 }
 
 TEST(ViewCorrelation, OfOneFolderIsThatOfItsVideos) {
@@ -116,6 +125,55 @@ TEST(ViewCorrelation, GoesByHowTheObjectTurns) {
   }
   EXPECT_LE(learn_view_correlation(views, shown, model, ShrunkVariance{}, 1, {}), 0.1);
 }
+
+/// Six of sixteen views are alike.
+TEST(ViewCorrelation, IsOfViewsFromAllOverTheTurntable) {
+  EXPECT_LE(learnt(0.0, kRecordings, false, false, 6), 0.5);
+}
+
+/// What is learnt of 130 objects, seen by a number, and how many items of each part of the work
+/// were told of.
+std::pair<double, std::map<std::string, std::size_t>> learnt_of_many(int recordings,
+                                                                     int views_each) {
+  constexpr int kMany = 130;
+  RecognitionModel model;
+  model.states.bins = 1;
+  model.states.categories = {"cup"};
+  FeatureModel& feature = model.features.emplace_back();
+  feature.name = "colour";
+  feature.statistics = empty_statistics(1, kMany);
+  std::vector<ViewFeatures> views;
+  std::vector<int> shown;
+  Rng rng(1);
+  for (int k = 0; k < kMany; ++k) {
+    model.states.objects.push_back(fmt::format("cup_{}", k));
+    model.states.category_of.push_back(0);
+    for (int i = 0; i < recordings * views_each; ++i) {
+      ViewFeatures& view = views.emplace_back();
+      view.name = {
+          .category = "cup", .object = model.states.objects.back(), .video = 1, .frame = i};
+      view.folder = fmt::format("/data/{}/cup/{}", i / views_each, view.name.object);
+      const auto number = static_cast<float>(3.0 * k + rng.normal());
+      view.features.push_back({Eigen::VectorXf::Constant(1, number), {}});
+      shown.push_back(k);
+    }
+  }
+  std::map<std::string, std::size_t> told;
+  const LongWork how{
+      .tell = [&](const std::string& part, std::size_t, std::size_t of) { told[part] = of; }};
+  const double correlation = learn_view_correlation(views, shown, model, ShrunkVariance{}, 1, how);
+  return {correlation, told};
+}
+
+TEST(ViewCorrelation, IsOf240WalksOfAllRecordings) {
+  const auto [correlation, told] = learnt_of_many(2, 2);
+  EXPECT_EQ(told.at("views that repeat each other"), 120U);
+  EXPECT_EQ(told.at("correlation of views"), 240U);
+  EXPECT_LE(correlation, 1.0);
+  EXPECT_TRUE(learnt_of_many(1, 2).second.empty()) << "of one recording";
+}
+
+TEST(ViewCorrelation, OfSingleViewsIsNone) { EXPECT_EQ(learnt_of_many(2, 1).first, 0.0); }
 
 }  // namespace
 }  // namespace vantage

@@ -10,6 +10,7 @@
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/bytes.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/recognition/dataset/view_features.hpp"
 
@@ -172,6 +173,32 @@ TEST_F(FeatureCaching, WhatTheFirstVersionKeptIsWhereItIsLookedFor) {
   (void)extract(cache());
   const std::uint64_t hash = hash_bytes("version 1", colour.state_hash());
   EXPECT_TRUE(fs::is_directory(cache() / ("colour-" + hash_text(hash))));
+}
+
+TEST_F(FeatureCaching, WhatIsLeftIsWrittenToAFileOfItsOwn) {
+  const std::vector<TrainedFeature> extractors{TrainedFeature(Colour{}, 0.0)};
+  {
+    FeatureCache kept(cache(), extractors);
+    for (std::uint64_t i = 0; i < 257; ++i) kept.keep(0, i, FeatureResult::skip("hidden"));
+  }
+  EXPECT_EQ(files().size(), 2U);
+  testing::internal::CaptureStderr();
+  const FeatureCache again(cache(), extractors);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "nothing is wrong with either";
+  for (std::uint64_t i = 0; i < 257; ++i) EXPECT_TRUE(again.find(0, i)) << i;
+}
+
+TEST_F(FeatureCaching, AFileOfAnotherKindIsLeftOut) {
+  const std::vector<TrainedFeature> extractors{TrainedFeature(Colour{}, 0.0)};
+  FeatureCache(cache(), extractors).keep(0, 1, FeatureResult::skip("hidden"));
+  EXPECT_TRUE(FeatureCache(cache(), extractors).find(0, 1));
+  const fs::path file = files().front();
+  std::string bytes = read_file(file);
+  bytes.resize(bytes.size() - sizeof(std::uint64_t));
+  bytes[0] = 'V';
+  put(bytes, hash_bytes(bytes));
+  write_file(file, bytes);
+  EXPECT_FALSE(FeatureCache(cache(), extractors).find(0, 1));
 }
 
 }  // namespace

@@ -134,5 +134,25 @@ TEST(FewViews, OfNoViewThereIsNoMistakeAndOfASingleOneThereIs) {
   EXPECT_EQ(one.log_density[0].cols(), 2);
 }
 
+TEST(FewViews, TheMistakeMayBeForTheFirstStateOfAll) {
+  HeldOutViews held_out{.state = {2}, .bins = 2, .log_density = {Eigen::MatrixXf(4, 1)}};
+  held_out.log_density[0] << -1.0F, -3.0F, 0.0F, -2.0F;
+  add_a_mistake(held_out);
+  EXPECT_EQ(held_out.state, (std::vector<int>{2, 0}));
+}
+
+/// Of the first two views the first feature rules out the other object; beyond a million nats the
+/// second one decides, by 3 and 5.
+TEST(FewViews, ALeadOfAMillionNatsIsAsGoodAsAnyGreaterOne) {
+  HeldOutViews held_out{
+      .state = {0, 0, 0}, .bins = 1, .log_density = {Eigen::MatrixXf(2, 3), Eigen::MatrixXf(2, 3)}};
+  held_out.log_density[0] << 0.0F, 0.0F, 0.0F,  //
+      -1.9e6F, -1.2e6F, -1.0F;
+  held_out.log_density[1] << 0.0F, 0.0F, 0.0F,  //
+      -3.0F, -5.0F, -1.0F;
+  add_a_mistake(held_out);
+  EXPECT_TRUE(held_out.log_density[1].col(3) == held_out.log_density[1].col(0));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -313,5 +313,68 @@ TEST(HoldOut, TheSameDirectionIsSoAllTheWayRoundButOfOneObjectOnly) {
   EXPECT_GT(parted_pairs(two_objects), 0);
 }
 
+TEST(HoldOut, OppositeSidesAreNotTheSameDirection) {
+  for (const double apart_rad : {std::numbers::pi, 2.0 / std::numbers::pi, 1.0}) {
+    NumberedViews made(40);
+    for (int k = 0; k < 40; ++k) {
+      made.add(k, 1, static_cast<float>(k % 3), 0.0);
+      made.add(k, 1, static_cast<float>(k % 4), apart_rad);
+    }
+    EXPECT_GT(parted_pairs(made), 0) << apart_rad;
+  }
+}
+
+/// A seed holds out the same views for ever.
+TEST(HoldOut, IsDrawnByTheNameOfTheViewAndHowOftenItCame) {
+  NumberedViews made(1);
+  for (int i = 0; i < 120; ++i) {
+    ViewFeatures& view = made.add(0, 1, static_cast<float>(i % 3), 0.1 * (i % 60));
+    view.name.frame = 1 + i % 60;
+    if (i >= 60) view.folder = "/attic/cup/cup_0";
+  }
+  const Calibration by = made.hold_out_by(HeldOutShare{.share = 0.5});
+  const std::set<std::size_t> held(by.view.begin(), by.view.end());
+  for (std::size_t i = 0; i < 120; ++i) {
+    const std::string stream = "hold out " + to_string(made.views[i].name) + (i < 60 ? "" : "+");
+    EXPECT_EQ(held.contains(i), Rng::stream(1, stream).uniform() < 0.5) << i;
+  }
+}
+
+/// The same numbers, of two objects of two bins: (1 / 2 + 4 / 2) / 2 of the second one's states,
+/// (1 / 2 + 16 / 2) / 2 of the first one's.
+TEST(HoldOutByVideo, HalvesAreOfObjectsNotOfStates) {
+  NumberedViews made = one_view_each_in_two_videos();
+  made.model.states.objects = {"cup_0", "cup_1"};
+  made.model.states.category_of = {0, 0};
+  made.model.states.bins = 2;
+  const Calibration by = made.hold_out_by(HeldOutVideos{});
+  EXPECT_THAT(by.view, testing::ElementsAre(0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U));
+  ASSERT_EQ(by.folds.size(), 4U);
+  for (std::size_t s = 0; s < 4; ++s) {
+    EXPECT_NEAR(by.folds[s].models[0].variance(0, 0), s % 2 == 0 ? 1.25F : 4.25F, 1e-5F);
+  }
+}
+
+TEST(HoldOutByVideo, WithoutAnyScatterVariancesAreABillionth) {
+  NumberedViews made(2);
+  for (const int video : {1, 4}) {
+    made.add(0, video, 1.0F);
+    made.add(1, video, 5.0F);
+  }
+  const Calibration by = made.hold_out_by(HeldOutVideos{});
+  ASSERT_EQ(by.folds.size(), 4U);
+  EXPECT_FLOAT_EQ(by.folds[0].models[0].variance(0, 0), 1e-9F);
+}
+
+TEST(HoldOut, LimitsTheViewsOfASingleFoldToo) {
+  NumberedViews made(50);
+  for (int k = 0; k < 50; ++k) {
+    for (int i = 0; i < 100; ++i) made.add(k, 1, static_cast<float>(i % 7), 0.06 * i);
+  }
+  const Calibration by = made.hold_out_by(HeldOutShare{.share = 0.9});
+  ASSERT_EQ(by.folds.size(), 1U);
+  EXPECT_EQ(by.folds[0].count, 4000);
+}
+
 }  // namespace
 }  // namespace vantage

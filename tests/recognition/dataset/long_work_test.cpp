@@ -1,12 +1,16 @@
 // Long work: each item once, with progress, until somebody throws.
 #include "vantage/recognition/dataset/long_work.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tests/support/terminal.hpp"
+#include "vantage/core/log.hpp"
 
 namespace vantage {
 namespace {
@@ -59,6 +63,15 @@ TEST(LongWorkThatThrows, EndsBeforeTheItemThatWasPolledFor) {
   EXPECT_THROW(work_through(10, how, "work", [&](std::size_t) { ++called; }), Stop);
   EXPECT_EQ(polled, 4);
   EXPECT_EQ(called, 3);
+}
+
+TEST(LongWorkDone, IsShownByABar) {
+  if (!support::has_terminals()) GTEST_SKIP() << "no terminal";
+  const std::string shown =
+      support::shown_progress([] { work_through(2, {}, "sorting", [](std::size_t) {}); });
+  set_verbosity(Verbosity::normal);
+  EXPECT_THAT(shown, testing::HasSubstr("sorting ["));
+  EXPECT_THAT(shown, testing::AnyOf(testing::HasSubstr(" 50 %"), testing::HasSubstr("100 %")));
 }
 
 }  // namespace

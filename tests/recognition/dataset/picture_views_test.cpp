@@ -271,5 +271,39 @@ TEST(FitTo, SaysHowManyPicturesHaveNoMaskAsTheModelsHad) {
   EXPECT_EQ(said(), "");
 }
 
+TEST(NotesOfAModel, HaveNoFloorWhereNoneIsSaid) {
+  RecognitionModel model;
+  model.pictures = "pictures: {bins: 12}\n";
+  EXPECT_EQ(notes_of(model)->bins, 12);
+  EXPECT_EQ(std::get<ShrunkVariance>(floored(model, ShrunkVariance{.floor = 0.2})).floor, 0.2);
+}
+
+TEST(CommonNotes, AreOfTheImportedViewsAmongOthers) {
+  const auto four = notes_with(notes_of_bins(4));
+  EXPECT_EQ(common_notes(std::vector{entry_of(1, 1), entry_of(1, 2, four)}, 0)->bins, 4);
+}
+
+TEST(FitTo, PassesByWhatWasNotImported) {
+  const auto names = notes_with(notes_of_names({"left", "front"}));
+  std::vector<ViewEntry> views{entry_of(1, 1), entry_of(1, 2, names)};
+  fit_to(notes_of_names({"front", "left"}), views);
+  EXPECT_NEAR(views[1].yaw_rad, std::numbers::pi, 1e-12);
+}
+
+TEST(DropCopies, TellsOfASingleOneAndNotOfNone) {
+  const support::TemporaryDirectory folder;
+  std::vector<ViewEntry> views(2, entry_of(1, 1));
+  for (ViewEntry& view : views) view.folder = folder.path();
+  write_file(views[0].file("crop.png"), "red");
+  write_file(views[0].file("depthcrop.png"), "near");
+  const auto said = [&] {
+    testing::internal::CaptureStderr();
+    drop_copies(views);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(said(), HasSubstr("1 views are copies"));
+  EXPECT_EQ(said(), "");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -77,6 +78,19 @@ TEST(TransitionOfAModel, IsRigidOrWhatItCounted) {
   EXPECT_NEAR(learnt.slip[0], 0.6, 1e-12);
   EXPECT_NEAR(learnt.slip[1], 0.2, 1e-12);
   EXPECT_NEAR(learnt.slip[2], 0.0, 1e-12);
+}
+
+TEST(LearnTransition, TurnsByAnyNumberOfBinsButNone) {
+  const PlainTurntables made;
+  Eigen::VectorXd moves = Eigen::VectorXd::Zero(kWalkBins);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const TransitionCounts counts =
+        learn_transition(made.views, made.model, ShrunkVariance{}, 5.0, seed);
+    for (int bins = 0; bins < kWalkBins; ++bins) moves[bins] += counts.slip.col(bins).sum() - 5.0;
+  }
+  EXPECT_NEAR(moves[0], 0.0, 1e-6);
+  for (int bins = 1; bins < kWalkBins; ++bins) EXPECT_GT(moves[bins], 10.0) << bins;
+  EXPECT_NEAR(moves.sum(), 20.0 * 2.0 * 3.0, 1e-4);
 }
 
 }  // namespace

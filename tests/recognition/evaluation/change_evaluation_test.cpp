@@ -137,5 +137,22 @@ TEST(LogLikelihoods, AreZeroWhereThereIsNoFeature) {
   EXPECT_TRUE(all[0].col(5).isApprox(expected.cast<float>()));
 }
 
+TEST(LogLikelihoods, AreOfTheFeaturesBesideThoseThatAreMissing) {
+  PlainWorld world(true);
+  const ObservationModel model = world.recogniser.features[0].observation;
+  const Recogniser recogniser = make_recogniser(
+      world.recogniser.states,
+      {{TrainedFeature(Colour{}, 0.0), model}, {TrainedFeature(Colour{}, 0.0), model}}, 1);
+  for (ViewFeatures& view : world.test.views) {
+    view.features.insert(view.features.begin(), FeatureResult::skip("hidden"));
+  }
+  const std::vector<Eigen::MatrixXf> all = log_likelihoods(recogniser, world.test, {});
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_TRUE(all[0].isZero());
+  const Eigen::VectorXd expected =
+      log_likelihood(recogniser.features[1].prepared, world.test.views[5].features[1].vector);
+  EXPECT_TRUE(all[1].col(5).isApprox(expected.cast<float>()));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
 #include "vantage/recognition/evaluation/change_evaluation.hpp"
 #include "vantage/recognition/evaluation/svm_baseline.hpp"
@@ -239,6 +243,42 @@ TEST(TestViewsRead, SayWhatOfThemTheModelKnows) {
     EXPECT_EQ(test.category[i], i < 4 ? 0 : kNoCategory);
   }
   EXPECT_EQ(test.turntables.size(), 2U);
+}
+
+TEST_F(Evaluation, ACameraKnowsAllTheViewsItWasAt) {
+  DatasetCamera camera(recogniser_, *test_, likelihoods_,
+                       {.turntable = 1, .view = test_->turntables[1].views[5]});
+  const ObjectCamera as_camera = camera.as_object_camera();
+  as_camera.turn(as_camera.actions()[1]);
+  as_camera.turn(as_camera.actions()[0]);
+  const auto actions = as_camera.actions();
+  ASSERT_EQ(actions.size(), 7U);
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(actions[i].visited, i == 4 || i == 6) << "three bins back, or one: " << i;
+  }
+}
+
+/// Of four views by name, in another order than those of the model.
+TEST(TestViewsRead, AreMadeToFitTheModelsPictures) {
+  const support::TemporaryDirectory folder;
+  test::put_painted_object(folder.path(), {"cup", "cup_1", 0}, 4);
+  const TrainedFeature colour(Colour{}, 0.0);
+  RecognitionModel model;
+  model.states = {.objects = {"cup_1"}, .categories = {"cup"}, .category_of = {0}, .bins = 4};
+  model.features.push_back({.name = "colour",
+                            .statistics = empty_statistics(colour.dimension(), 4),
+                            .blobs = {{kExtractorBlob, colour.to_bytes()}}});
+  PictureNotes notes;
+  notes.bins = 4;
+  notes.degrees = false;
+  notes.views = {"a", "b", "c", "d"};
+  keep_notes(notes, 0.0, model);
+  std::ranges::reverse(notes.views);
+  DatasetIndex dataset = index_dataset(folder.path());
+  for (ViewEntry& view : dataset.views) view.notes = std::make_shared<const PictureNotes>(notes);
+  const TestViews test = read_test_views(dataset, model, 2, {});
+  ASSERT_EQ(test.shown.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(test.shown[i], 3 - static_cast<int>(i % 4)) << i;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/recognition/made_up.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
@@ -138,6 +139,13 @@ TEST_F(CombinedFeatures, BeginWithTheSidesThatTheModelHasViewsOf) {
   EXPECT_EQ(hidden.features, 0);
   EXPECT_NEAR(hidden.entropy_bits, 1.5, 1e-9) << "of 0, 1/2, 1/4 and 1/4";
   EXPECT_NEAR(hidden.probability, 0.5, 1e-9);
+}
+
+TEST_F(CombinedFeatures, AreTriedByMethodsWhoseOptionsAreInRange) {
+  RecognitionOptions options;
+  options.max_views = 0;
+  EXPECT_THROW(run_trials(recogniser_, test_, likelihoods_, {}, {"none", options}, 1, {}),
+               ConfigError);
 }
 
 }  // namespace

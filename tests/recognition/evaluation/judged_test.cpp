@@ -143,5 +143,15 @@ TEST(PublishedMethods, AreThoseOfTheTables) {
                           "mutual_information, all features", "mutual_information"));
 }
 
+TEST_F(JudgedViews, TheFirstStateOfAllIsKnownToo) {
+  test_.shown[0] = 0;
+  EXPECT_TRUE(is_known(test_, 0));
+  EXPECT_EQ(judged(states_, test_, 0, 1).object, 0);
+  const ObjectBelief from_behind = belief_of(12, {{2, 0.9}});
+  EXPECT_EQ(judged(states_, test_, 0, from_behind).bin_error, 2);
+  const ObjectBelief none = belief_of(14, {{13, 0.9}});
+  EXPECT_FALSE(judged(with_unknown_ones(states_), test_, 0, none).correct);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -111,5 +111,15 @@ TEST(SvmBaseline, TellsWhatLiesBetweenByItsKernelOnly) {
   EXPECT_THAT(told(LinearSvm{}), testing::Not(ElementsAre(5, 9, 5)));
 }
 
+/// The border is where a (k(x) + k(x - 2)) - 2 a k(x - 1) + c is 0, k(x) = exp(-3 x^2): 0.507. 3 is
+/// half of gamma, of two features, over the mean square distance of 4/3.
+TEST(SvmBaseline, MeasuresGammaByTheMeanSquareDistance) {
+  std::vector<ViewFeatures> known;
+  for (const float x : {0.0F, 0.0F, 1.0F, 1.0F, 2.0F, 2.0F}) known.push_back(view_of(x, 0.0F));
+  const std::vector<int> label{5, 5, 9, 9, 5, 5};
+  const std::vector<ViewFeatures> asked{view_of(0.48F, 0.0F), view_of(0.53F, 0.0F)};
+  EXPECT_THAT(svm_predictions(KernelSvm{.gamma = 8.0}, {known, label}, asked), ElementsAre(5, 9));
+}
+
 }  // namespace
 }  // namespace vantage
