@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "tests/support/mjcf.hpp"
 #include "vantage/sim/render/renderer.hpp"
@@ -103,6 +105,74 @@ TEST(DrawnView, MarkersAreAsLargeAsTheySay) {
       .from_world_m = {-0.3, -1.0, 0.0}, .to_world_m = {0.3, -1.0, 0.0}, .width_m = 0.1});
   EXPECT_NEAR(line.x(), 102, 4);
   EXPECT_NEAR(line.y(), 15, 2);
+}
+
+TEST(DrawnView, TendonsAreNotDrawn) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><statistic extent='2'/><worldbody><geom size='.05'/>"
+      "<site name='left' pos='-.5 -1 0'/><site name='right' pos='.5 -1 0'/>"
+      "<camera pos='0 -2 0' xyaxes='1 0 0 0 0 1'/></worldbody><tendon><spatial width='.1'>"
+      "<site site='left'/><site site='right'/></spatial></tendon></mujoco>");
+  const RenderedImages images = seen(scene, FixedCamera{0});
+  const std::size_t centre = kRows / 2 * kColumns + kColumns / 2;
+  EXPECT_EQ(images.segmentation[centre], 0);
+  EXPECT_NEAR(images.depth_m[centre], 1.95, 2e-3);
+}
+
+TEST(DrawnView, WhatIsNotAskedForIsNotThereFromBefore) {
+  const auto scene = ball_ahead();
+  const auto renderer = make_offscreen_renderer(*scene.model, kColumns, kRows);
+  RenderedImages images;
+  renderer->render(*scene.model, *scene.data, FixedCamera{0}, {}, images);
+  ASSERT_FALSE(images.rgb.empty() || images.depth_m.empty() || images.segmentation.empty());
+  renderer->render(*scene.model, *scene.data, FixedCamera{0},
+                   {.rgb = false, .depth_and_segmentation = false}, images);
+  EXPECT_TRUE(images.rgb.empty());
+  EXPECT_TRUE(images.depth_m.empty());
+  EXPECT_TRUE(images.segmentation.empty());
+}
+
+/// Two balls before a camera that sees from half a metre on, one at 0.3 m, one behind it at 0.7 m.
+TEST(DrawnView, WhereNothingIsCutAwayTheNearPlaneStaysWhereItIs) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><statistic extent='1' center='0 0 0'/><visual><map znear='.5' zfar='20'/></visual>"
+      "<worldbody><geom size='.05' pos='.65 0 0'/><geom size='.1' pos='.2 0 0'/></worldbody>"
+      "</mujoco>");
+  const FreeCamera camera{
+      .distance_m = 1.0, .azimuth_rad = std::numbers::pi, .elevation_rad = 0.0, .cutaway_m = 1.5};
+  const RenderedImages images = seen(scene, camera);
+  const std::size_t centre = kRows / 2 * kColumns + kColumns / 2;
+  EXPECT_EQ(images.segmentation[centre], 1);
+  EXPECT_NEAR(images.depth_m[centre], 0.7, 5e-3);
+}
+
+/// A roof over a floor, behind the camera.
+TEST(DrawnView, ShadowsFallIntoTheImageIfTheyAreAskedFor) {
+  const auto context = make_offscreen_context();
+  const auto drawn_under = [&](const std::string& roof) {
+    const auto scene = test::compile_mjcf(
+        "<mujoco><statistic extent='4' center='0 0 0'/><visual><quality shadowsize='256'/>"
+        "</visual><worldbody><light directional='true' pos='0 0 5' dir='0 0 -1'/>"
+        "<geom type='plane' size='4 4 .1'/>" +
+        roof + "<camera pos='0 0 1.5'/></worldbody></mujoco>");
+    const auto renderer = make_offscreen_renderer(*scene.model, 40, 30, context);
+    std::array<RenderedImages, 2> images;
+    for (const bool shadows : {false, true}) {
+      renderer->render(*scene.model, *scene.data, FixedCamera{0},
+                       {.depth_and_segmentation = false, .shadows = shadows},
+                       images[shadows ? 1 : 0]);
+    }
+    return images;
+  };
+  const auto roofed = drawn_under("<geom type='box' size='.3 .3 .02' pos='0 0 3'/>");
+  const auto open = drawn_under("");
+  EXPECT_EQ(roofed[0].rgb, open[0].rgb);
+  EXPECT_NE(roofed[1].rgb, open[1].rgb);
+}
+
+TEST(DrawnView, NoGroupIsDrawnIfNoneIsAskedFor) {
+  const RenderedImages images = seen(ball_ahead(), FixedCamera{0}, {.max_group = -1});
+  EXPECT_EQ(*std::ranges::max_element(images.segmentation), -1);
 }
 
 }  // namespace

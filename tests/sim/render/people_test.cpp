@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <numbers>
 #include <numeric>
 #include <regex>
+#include <utility>
 #include <vector>
 
 #include "tests/support/mjcf.hpp"
@@ -233,6 +235,56 @@ TEST(ForPeople, HalfOfTheWayToARoomIsCutAway) {
   const auto plain = drawn_with({});
   EXPECT_EQ(drawn_with({SphereMarker{.p_world_m = {0.0, -4.5, 1.5}}}), plain) << "1.5 m";
   EXPECT_NE(drawn_with({SphereMarker{.p_world_m = {0.0, -3.5, 1.5}}}), plain) << "2.5 m";
+}
+
+/// Images of one scene for people or not, from several places.
+std::vector<RenderedImages> drawn_from(const test::MjcfModel& scene,
+                                       const std::vector<std::pair<FreeCamera, bool>>& views) {
+  const auto renderer = make_offscreen_renderer(*scene.model, kPeopleWidth, kPeopleHeight);
+  std::vector<RenderedImages> images(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    RenderRequest request;
+    request.depth_and_segmentation = false;
+    request.for_people = views[i].second;
+    renderer->render(*scene.model, *scene.data, views[i].first, request, images[i]);
+  }
+  return images;
+}
+
+TEST(ForPeople, ASceneWithALightOfItsOwnIsLitByThatAlone) {
+  const auto lit = test::compile_mjcf(R"(
+    <mujoco>
+      <visual><headlight active="0"/></visual>
+      <worldbody>
+        <light pos="0 0 4" dir="0 0 -1" diffuse=".2 .2 .2"/>
+        <geom type="box" size=".5 .5 .5" rgba=".8 .8 .8 1"/>
+      </worldbody>
+    </mujoco>)");
+  const FreeCamera near{.distance_m = 2.5};
+  const auto images = drawn_from(lit, {{near, true}, {near, false}});
+  EXPECT_EQ(images[0].rgb, images[1].rgb);
+}
+
+/// The upper side of a wall from straight above, and its front, of which the eye sees a part.
+TEST(ForPeople, TheLampAtTheEyeShinesAlongItsSightAndEvenly) {
+  const auto dark = test::compile_mjcf(R"(
+    <mujoco>
+      <visual><headlight active="0"/></visual>
+      <worldbody><geom type="box" size=".5 3 3" rgba=".5 .5 .5 1"/></worldbody>
+    </mujoco>)");
+  const FreeCamera above{
+      .distance_m = 4.5, .azimuth_rad = 0.0, .elevation_rad = -std::numbers::pi / 2.0};
+  const FreeCamera ahead{.distance_m = 2.0, .azimuth_rad = 0.0, .elevation_rad = 0.0};
+  const auto images = drawn_from(dark, {{above, true}, {ahead, true}});
+  const auto red = [&](std::size_t image, int row, int column) {
+    return images[image].rgb[3 * static_cast<std::size_t>(row * kPeopleWidth + column)];
+  };
+  constexpr int kMiddleRow = kPeopleHeight / 2;
+  constexpr int kMiddleColumn = kPeopleWidth / 2;
+  // Half grey, lit by 0.4 from everywhere and by 0.5 along the sight.
+  EXPECT_NEAR(red(0, kMiddleRow, kMiddleColumn), 0.5 * (0.4 + 0.5) * 255.0, 4.0);
+  EXPECT_NEAR(red(1, kMiddleRow, 2), red(1, kMiddleRow, kMiddleColumn), 2);
+  EXPECT_NEAR(red(1, 2, kMiddleColumn), red(1, kMiddleRow, kMiddleColumn), 2);
 }
 
 }  // namespace

@@ -89,5 +89,25 @@ TEST(ModelsFromMemory, ErrorsAreNamed) {
   }
 }
 
+TEST(PosedScene, EachThingIsWhereItWasPut) {
+  PosedScene scene(
+      load_model("<mujoco><statistic extent='1'/><visual><map znear='.05' zfar='20'/></visual>"
+                 "<worldbody><body name='first' mocap='true' pos='5 0 0'><geom size='.1'/></body>"
+                 "<body name='second' mocap='true' pos='-5 0 0'>"
+                 "<geom name='bar' type='box' size='.5 .05 .1'/></body>"
+                 "<camera name='above' pos='0 0 2'/></worldbody></mujoco>",
+                 {}, "things")
+          .model,
+      101, 101);
+  scene.set_pose("second", make_pose({0.0, 0.0, 0.3}, std::numbers::pi / 2.0));
+  RenderedImages images;
+  scene.render("above", {}, images);
+  EXPECT_NEAR(nearest_m(images), 1.6, 0.02);
+  const int bar = scene.geom_id("bar");
+  EXPECT_EQ(images.segmentation[50 * 101 + 50], bar);
+  EXPECT_EQ(images.segmentation[30 * 101 + 50], bar) << "it lies along y";
+  EXPECT_EQ(images.segmentation[50 * 101 + 30], -1);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "tests/sim/sensors/sensor_scene.hpp"
 
@@ -126,6 +130,85 @@ TEST(SceneSurfacesOf, CellsGrowByHalfUntilTrianglesAreFew) {
       drawn_of("<geom type='hfield' hfield='flat'/>",
                "<hfield name='flat' nrow='101' ncol='101' size='.25 .25 .1 .1'/>");
   EXPECT_EQ(drawn.triangles[0].size(), 2U * 41U * 41U + 4U * 2U * 41U + 2U) << "top, sides, bottom";
+}
+
+/// Two wedges, each with a material of its own, and a texture that nobody has before theirs.
+test::MjcfModel painted_wedges() {
+  auto scene = test::compile_mjcf(
+      "<mujoco><asset><texture name='other' type='2d' builtin='flat' width='2' height='2'/>"
+      "<texture name='paint' type='2d' builtin='flat' width='4' height='2'/>"
+      "<material name='dull' rgba='.4 .4 .4 1'/>"
+      "<material name='paint' texture='paint' rgba='1 .4 1 1'/>"
+      "<mesh name='a' vertex='0 0 0  .3 0 0  0 .3 0  0 0 .3' texcoord='0 0 0 0 0 0 0 0' "
+      "face='0 2 1  0 1 3  0 3 2  1 2 3'/>"
+      "<mesh name='b' vertex='0 0 0  .3 0 0  0 .3 0  0 0 .3' texcoord='0 0 0 0 0 0 0 0' "
+      "face='0 2 1  0 1 3  0 3 2  1 2 3'/>"
+      "<mesh name='bare' vertex='0 0 0  .3 0 0  0 .3 0  0 0 .3' "
+      "face='0 2 1  0 1 3  0 3 2  1 2 3'/></asset><worldbody>"
+      "<geom type='mesh' mesh='a' material='dull'/><geom type='mesh' mesh='b' material='paint'/>"
+      "<geom type='mesh' mesh='bare' material='paint'/>"
+      "<geom type='mesh' mesh='bare' rgba='.2 .6 .4 1'/></worldbody></mujoco>");
+  mjtByte* paint = scene.model->tex_rgb + scene.model->tex_adr[1];
+  for (int i = 0; i < 24; ++i) paint[i] = static_cast<mjtByte>(10 * i);
+  const std::array<float, 8> uv{0.1F, 0.2F, 0.6F, 0.2F, 0.9F, 0.7F, -1e-9F, 0.2F};
+  std::copy(uv.begin(), uv.end(), scene.model->mesh_texcoord + 8);
+  return scene;
+}
+
+TEST(SceneSurfacesOf, EveryMeshHasItsOwnPaint) {
+  const auto scene = painted_wedges();
+  ASSERT_EQ(scene.model->mesh_texcoordadr[1], 4);
+  const auto colours = scene_surfaces(*scene.model, *scene.data).colours;
+  ASSERT_EQ(colours.size(), 16U);
+  const std::vector<Colour> expected{{0, 4, 20}, {60, 28, 80}, {210, 88, 230}, {90, 40, 110}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(colours[i], (Colour{102, 102, 102})) << "no paint at all " << i;
+    EXPECT_EQ(colours[4 + i], expected[i]) << i;
+    EXPECT_EQ(colours[8 + i], (Colour{105, 46, 125})) << "its mean, where no place is told " << i;
+    EXPECT_EQ(colours[12 + i], (Colour{51, 153, 102})) << i;
+  }
+}
+
+TEST(SceneSurfacesOf, ATextureRoundACubeIsNoColour) {
+  const SceneSurfaces drawn =
+      drawn_of("<geom type='box' size='.1 .1 .1' material='sky'/>",
+               "<texture name='sky' type='cube' builtin='flat' rgb1='0 0 0' width='8' height='8'/>"
+               "<material name='sky' texture='sky' rgba='2 .6 .4 1'/>");
+  ASSERT_EQ(drawn.colours.size(), 8U);
+  EXPECT_EQ(drawn.colours[0], (Colour{255, 153, 102})) << "at most 255";
+}
+
+TEST(SceneSurfacesOf, WhatIsNotShownHidesNothingElse) {
+  EXPECT_EQ(drawn_of("<geom type='box' size='.1 .2 .3' group='3'/>"
+                     "<geom type='box' size='.1 .2 .3' pos='2 0 0'/>")
+                .vertices_m.size(),
+            8U);
+}
+
+TEST(SceneSurfacesOf, APlaneIsTwoTrianglesThatShareAnEdge) {
+  const SceneSurfaces drawn = drawn_of("<geom type='plane' size='.5 .25 .1'/>");
+  ASSERT_EQ(drawn.vertices_m.size(), 4U);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& triangle : drawn.triangles[0]) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      edges.emplace_back(std::minmax(triangle[i], triangle[(i + 1) % 3]));
+    }
+  }
+  EXPECT_THAT(edges, testing::UnorderedElementsAre(testing::Pair(0U, 1U), testing::Pair(1U, 2U),
+                                                   testing::Pair(0U, 2U), testing::Pair(0U, 2U),
+                                                   testing::Pair(2U, 3U), testing::Pair(0U, 3U)));
+  for (const Eigen::Vector3f& p : drawn.vertices_m) {
+    EXPECT_LT((p.cwiseAbs() - Eigen::Vector3f(0.5F, 0.25F, 0.0F)).norm(), 1e-6F);
+  }
+}
+
+TEST(SceneSurfacesOf, ATextureMayBeOnePixel) {
+  const SceneSurfaces drawn =
+      drawn_of("<geom type='plane' size='1 1 .1' material='dot'/>",
+               "<texture name='dot' type='2d' builtin='flat' rgb1='.2 .6 .4' width='1' height='1'/>"
+               "<material name='dot' texture='dot'/>");
+  ASSERT_EQ(drawn.colours.size(), 4U);
+  EXPECT_EQ(drawn.colours[0], (Colour{51, 153, 102}));
 }
 
 }  // namespace

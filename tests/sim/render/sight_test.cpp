@@ -210,5 +210,11 @@ TEST(Sight, GeomsThatAreToldApartGoByTheirPlace) {
   EXPECT_EQ(geoms[3].segid, 9);
 }
 
+TEST(Sight, ASphereJustOutsideIsNotShown) {
+  const Sight sight(camera_along_x(), 200, 100);
+  EXPECT_TRUE(sight.may_show({5, 6.69, 3}, 0.5)) << "0.49 m from the edge";
+  EXPECT_FALSE(sight.may_show({5, 6.74, 3}, 0.5)) << "0.52 m from it";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -376,5 +376,14 @@ TEST(DriveTimes, ABaseBrakesWithinHalfItsTolerancesWhereverThatIs) {
   }
 }
 
+TEST(BaseCommands, PowerIsThatOfTheFirstActuatorToo) {
+  test::RobotWorld scene;
+  for (int i = 0; i < scene.world.model().nu; ++i) {
+    scene.world.data().actuator_force[i] = 2.0;
+    scene.world.data().actuator_velocity[i] = 3.0;
+  }
+  EXPECT_NEAR(scene.robot.power_w(scene.world), 300.0 + 6.0 * scene.world.model().nu, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/sim/test_world.hpp"
 
@@ -157,6 +158,39 @@ TEST(Drive, TakesTheTimeSinceItBegan) {
       drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{0.3, 0.0, 0.0}});
   EXPECT_EQ(result.status, DriveStatus::arrived);
   EXPECT_NEAR(result.duration_s, scene.world.time_s() - start_s, 1e-9);
+}
+
+TEST(Drive, BrakingFromATurnLastsUntilItTurnsNoMore) {
+  RobotWorld scene;
+  Odometry odometry = perfect(scene);
+  const DriveResult result =
+      drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{0.0, 0.0, 2.5}}, {},
+            [](World& world, const Pose2&) { return world.time_s() < 1.0; });
+  EXPECT_EQ(result.status, DriveStatus::stopped);
+  EXPECT_LT(result.duration_s, 3.0);
+  EXPECT_LT(std::abs(scene.robot.twist(scene.world).wz_rad_s) *
+                scene.robot.footprint().circumscribed_radius_m,
+            DriveOptions{}.rest_speed_m_s);
+}
+
+/// Where it ends that slides while it brakes at its goal.
+DriveStatus status_after_sliding(double slide_m) {
+  RobotWorld scene;
+  Odometry odometry = perfect(scene);
+  int ticks = 0;
+  odometry.on_increment = [&ticks, slide_m](const Pose2&) {
+    return ++ticks == 2 ? Pose2{slide_m, 0.0, 0.0} : Pose2{};
+  };
+  DriveOptions options;
+  options.goal_tolerance_m = 0.1;
+  return drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{0.0, 0.0, 0.0}}, options,
+               [](World& world, const Pose2&) { return world.time_s() < 0.5; })
+      .status;
+}
+
+TEST(Drive, ItHasArrivedIfItIsWithinItsToleranceOnceItStands) {
+  EXPECT_EQ(status_after_sliding(0.07), DriveStatus::arrived);
+  EXPECT_EQ(status_after_sliding(0.15), DriveStatus::stopped);
 }
 
 }  // namespace

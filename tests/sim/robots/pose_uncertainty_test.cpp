@@ -178,5 +178,20 @@ TEST(PoseUncertainty, IsAsSureAsItIsToldToBe) {
   EXPECT_NEAR(uncertainty.covariance()(0, 0) - before_m2, 2e-4, 1e-12);
 }
 
+TEST(PoseUncertainty, ARegistrationMayTellOfOneDirectionAlone) {
+  PoseUncertainty uncertainty({}, {});
+  uncertainty.move_to({4.0, 0.0, 0.0});
+  const double across_m2 = uncertainty.covariance()(1, 1);
+  uncertainty.correct({4.0, 0.0, 0.0}, Eigen::Vector3d(1e4, 0.0, 0.0).asDiagonal());
+  EXPECT_NEAR(uncertainty.covariance()(0, 0), 1e-4, 1e-8);
+  EXPECT_NEAR(uncertainty.covariance()(1, 1), across_m2, 1e-9);
+}
+
+TEST(PoseUncertainty, WhatIsKnownExactlyMayBeRegistered) {
+  PoseUncertainty uncertainty({}, {});
+  uncertainty.correct({}, information(0.01, 0.01, 0.01));
+  EXPECT_LT(uncertainty.covariance().norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -250,5 +250,17 @@ TEST(RobotDescription, DefaultsOfAnEpisodeAreKeys) {
               HasSubstr("robot.yaml:16: episode_defaults"));
 }
 
+TEST(RobotDescription, RotorsHaveTheRangeOfTheFirst) {
+  EXPECT_THAT(flight_complaint("<general name=\"robot/rotor_3\" ",
+                               "<general name=\"robot/rotor_3\" ctrlrange=\"0 4.5\" "),
+              HasSubstr("mini: rotors: actuator 'robot/rotor_3' has the ctrlrange 0 4.5"));
+}
+
+TEST(RobotDescription, ACameraMayLookAThousandthAside) {
+  const std::string ahead = "xyaxes=\"0 -1 0 0 0 1\"";
+  EXPECT_EQ(flight_complaint(ahead, "xyaxes=\"0.0009 -1 0 0 0 1\""), "");
+  EXPECT_THAT(flight_complaint(ahead, "xyaxes=\"0.0018 -1 0 0 0 1\""), HasSubstr("look along"));
+}
+
 }  // namespace
 }  // namespace vantage

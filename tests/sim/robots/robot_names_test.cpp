@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/sim/test_world.hpp"
@@ -167,6 +168,20 @@ TEST(RobotNames, SitesAndCamerasAreWhereTheyAreInTheirBodies) {
   const Eigen::Isometry3d T_camera =
       camera_in_body(*arm.scene.model, arm.scene.camera("robot/eye"));
   EXPECT_TRUE(T_camera.translation().isApprox(Eigen::Vector3d(0.01, 0.02, 0.03), 1e-12));
+}
+
+TEST(RobotNames, APoseIsReadInTheOrderOfMuJoCo) {
+  const std::array<double, 3> p{0.1, 0.2, 0.3};
+  const std::array<double, 4> wxyz{1.6, 0.6, -0.4, 0.8};
+  const Eigen::Isometry3d T = pose_of(p.data(), wxyz.data());
+  EXPECT_TRUE(T.translation().isApprox(Eigen::Vector3d(0.1, 0.2, 0.3), 1e-12));
+  const Eigen::Quaterniond turn(1.6, 0.6, -0.4, 0.8);
+  EXPECT_TRUE(T.linear().isApprox(turn.normalized().toRotationMatrix(), 1e-12));
+}
+
+TEST(RobotNames, ARobotMayBeTheFirstOfItsScene) {
+  const Names robot("<mujoco><worldbody><body name='robot/base'/></worldbody></mujoco>");
+  EXPECT_EQ(robot_base(*robot.scene.model), 1);
 }
 
 }  // namespace

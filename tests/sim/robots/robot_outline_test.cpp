@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -100,6 +101,17 @@ TEST(RobotOutline, CornersThatAreGivenWin) {
                                    Eigen::Vector2d(0.0, 0.7)));
   expect_reaches(
       robot_outline(*scene.model, 1, {}, "robot.yaml"), [](double, double) { return 0.1; }, 1e-9);
+}
+
+TEST(RobotOutline, EveryVertexOfAMeshCounts) {
+  expect_reaches(
+      outline_with("<geom type='mesh' mesh='kite'/>",
+                   "<mesh name='kite' vertex='-.5 0 0  .4 0 0  0 .3 0  0 0 .2' "
+                   "face='0 2 1  0 1 3  0 3 2  1 2 3'/>"),
+      [](double c, double s) {
+        return std::max({-0.5 * c, 0.4 * c, 0.3 * s, 0.0});
+      },
+      1e-6);
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 #include <gmock/gmock.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/sim/test_world.hpp"
 #include "vantage/geometry/field_of_view.hpp"
@@ -254,6 +258,39 @@ TEST(Rover, TurningTouchesWhatABeamReaches) {
   robot.place(world, {1.0, 2.0, 0.0});
   EXPECT_EQ(robot.touched_by_turning(world),
             std::vector<int>{model_id(world.model(), ModelObject::geom, "post")});
+}
+
+/// Posts of a centimetre where its beam points after 19 and 24 steps, and between two steps.
+TEST(Rover, TurningTouchesWhatIsThereEvery15Degrees) {
+  const RobotFolder rover = test::robot_folder("rover");
+  std::string mjcf = read_file(rover.mjcf);
+  mjcf.insert(mjcf.find("<!-- Mast. -->"), "<geom pos='.3 0 .6' size='.1 .01 .01'/>");
+  std::string posts;
+  for (const double heading_deg : {285.0, 0.0, 52.5}) {
+    const double heading_rad = heading_deg * std::numbers::pi / 180.0;
+    posts += "<geom type='box' size='.005 .005 1' pos='" +
+             std::to_string(1.0 + 0.37 * std::cos(heading_rad)) + " " +
+             std::to_string(2.0 + 0.37 * std::sin(heading_rad)) + " 1'/>";
+  }
+  const test::SceneFolder folder(test::scene_mjcf(posts));
+  folder.add("robot.xml", mjcf);
+  World world({folder.path(), folder.path().parent_path() / "robot.xml"});
+  const MobileBase robot = test::mobile_base(world, rover);
+  robot.place(world, {1.0, 2.0, 0.0});
+  EXPECT_EQ(robot.touched_by_turning(world), (std::vector<int>{1, 2})) << "0 is the floor";
+}
+
+TEST(Rover, ItHeadsWhereItsFrontPointsHoweverItLeans) {
+  RoverWorld scene;
+  const mjModel& model = scene.world.model();
+  const int joint = model.body_jntadr[scene.robot.base_body_id()];
+  mjtNum* q = scene.world.data().qpos + model.jnt_qposadr[joint] + 3;
+  const Eigen::Quaterniond lean(0.8, 0.3, -0.2, 0.4);
+  const std::array<double, 4> wxyz{lean.w(), lean.x(), lean.y(), lean.z()};
+  std::copy(wxyz.begin(), wxyz.end(), q);
+  const Eigen::Vector3d front = lean.normalized() * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(scene.robot.T_world_base(scene.world).yaw_rad, std::atan2(front.y(), front.x()),
+              1e-12);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "tests/control/flight_kit.hpp"
 #include "vantage/core/error.hpp"
@@ -329,6 +330,28 @@ TEST(TrajectoryTrackingController, SumsUpEachFlightAnew) {
   const FlightResult flown = scene.tracking.fly_to(std::span(&goal, 1));
   EXPECT_NEAR(flown.duration_s, scene.world.time_s() - start_s, 1e-9);
   EXPECT_NEAR(flown.path_length_m, 0.4, 0.1);
+}
+
+TEST(TrajectoryTrackingController, ItsReferenceIsWhereThePathIsAtTheEndOfATick) {
+  FlightWorld scene;
+  scene.tracking.hold(0.25);
+  const FlightWaypoint goal{.p_world_m = {1.0, 0.0, 3.0}};
+  const MinimumJerkTrajectory path(scene.tracking.reference(), std::span(&goal, 1),
+                                   exact_tracking().limits);
+  int ticks = 0;
+  scene.tracking.follow(path, [&](const TrajectoryTrackingController& tracking) {
+    ++ticks;
+    EXPECT_LT((tracking.reference().p_world_m - path.at(kPeriod_s * ticks).p_world_m).norm(), 1e-9);
+    return ticks < 200;
+  });
+  EXPECT_EQ(ticks, 200);
+}
+
+TEST(TrajectoryTrackingController, ToHoldForNoTimeIsNoError) {
+  FlightWorld scene;
+  const FlightResult result = scene.tracking.hold(0.0);
+  EXPECT_EQ(result.duration_s, 0.0);
+  EXPECT_EQ(result.rms_error_m, 0.0);
 }
 
 }  // namespace

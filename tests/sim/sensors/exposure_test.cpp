@@ -4,6 +4,7 @@
 #include <mujoco/mujoco.h>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "tests/sim/test_world.hpp"
@@ -148,6 +149,32 @@ TEST(Exposure, ACameraThatFollowsAMassIsWhereThatWas) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(renderer.camera_m[i], -0.25 * static_cast<double>(i), 1e-12) << i;
   }
+}
+
+/// Colour of a camera that moves at 8 m/s, and where it was for each image that was drawn.
+std::pair<int, std::vector<double>> shade_and_places(const std::vector<std::uint8_t>& shades,
+                                                     const ExposureOptions& exposure) {
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><body><joint type='slide' axis='0 1 0'/><geom size='.1'/>"
+      "<camera name='eye'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.data().qvel[0] = 8.0;
+  ExposureRenderer renderer(shades);
+  Rng rng(1);
+  const CameraImages images = rgbd_exposed(
+      renderer, world, 0, {.width_px = 2, .height_px = 1, .noise = false}, exposure, rng);
+  return {images.rgb[0], renderer.rail_m};
+}
+
+TEST(Exposure, AMomentIsDrawnOnce) {
+  EXPECT_EQ(shade_and_places({10, 11, 11}, {.exposure_s = 0.0, .samples = 3}).second,
+            std::vector<double>{0.0});
+}
+
+TEST(Exposure, MeansAreRoundedToTheNearest) {
+  const ExposureOptions four{.exposure_s = 0.0625, .samples = 4};
+  EXPECT_EQ(shade_and_places({10, 10, 10, 11}, four).first, 10) << "10.25";
+  EXPECT_EQ(shade_and_places({10, 10, 11, 11}, four).first, 11) << "10.5";
 }
 
 }  // namespace

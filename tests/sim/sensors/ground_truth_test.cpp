@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "tests/sim/sensors/sensor_scene.hpp"
 #include "vantage/core/rng.hpp"
@@ -339,6 +341,53 @@ TEST(ScoreMap, ToleranceMayReachAcrossTheGrid) {
         ASSERT_EQ(score.precision, distance <= tolerance ? 1.0 : 0.0) << i << " " << k;
         ASSERT_EQ(score.recall, score.precision) << i << " " << k;
       }
+    }
+  }
+}
+
+TEST(VisibleCells, ACellIsSeenAMicrometreBeforeASurface) {
+  for (const auto& [wall_m, row] :
+       {std::pair("0.7000007", "#####.....\n"), std::pair("0.7000015", "######....\n")}) {
+    const auto scene =
+        test::compile_mjcf(std::string("<mujoco><worldbody><geom type='box' size='.2 2 2' pos='") +
+                           wall_m + " 0 0'/></worldbody></mujoco>");
+    const RayScene rays(*scene.model, *scene.data);
+    const GridFrame grid = layer(10, 1);
+    const Pose T = make_pose({-1.0, 0.05, 0.05}, 0.0);
+    EXPECT_EQ(picture(grid, visible_cells(rays, grid, T, kWide)), row);
+  }
+}
+
+TEST(VisibleCells, TheCellThatTheSensorIsInIsSeen) {
+  const auto scene = test::compile_mjcf(kRoomWall);
+  const RayScene rays(*scene.model, *scene.data, {.exclude_body_prefix = "robot/"});
+  const GridFrame grid = layer(10, 1);
+  EXPECT_EQ(picture(grid, visible_cells(rays, grid, make_pose({0.02, 0.05, 0.05}, 0.0), kWide)),
+            "######....\n");
+  FieldOfView from_itself_on = kWide;
+  from_itself_on.range_min_m = 0.0;
+  const Pose in_its_middle{Eigen::Translation3d(grid.centre({0, 0, 0}))};
+  EXPECT_EQ(picture(grid, visible_cells(rays, grid, in_its_middle, from_itself_on)),
+            "######....\n");
+}
+
+TEST(VisibleCells, AreFlaggedByOnes) {
+  const auto scene = test::compile_mjcf(kRoomWall);
+  const RayScene rays(*scene.model, *scene.data);
+  const auto flags = visible_cells(rays, layer(10, 5), make_pose({-1.0, 0.25, 0.05}, 0.0), kWide);
+  EXPECT_EQ(*std::ranges::max_element(flags), 1);
+}
+
+TEST(SurfaceCells, AnEndlessPlaneHasNoEndOnEitherSide) {
+  for (const char* at : {"-100 0 .05", "100 0 .05", "0 -100 .05", "0 100 .05"}) {
+    const auto scene =
+        test::compile_mjcf(std::string("<mujoco><worldbody><geom type='plane' size='0 0 1' pos='") +
+                           at + "'/></worldbody></mujoco>");
+    GridFrame grid = layer(5, 4);
+    grid.cells.z() = 2;
+    const auto cells = surface_cells(*scene.model, *scene.data, grid);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      EXPECT_EQ(cells[i] != 0, grid.cell(i).z() == 0) << at << " " << i;
     }
   }
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <thread>
 #include <vector>
@@ -233,6 +235,90 @@ TEST(RayScene, AgreesBesideAndInsideAMesh) {
     ++met;
   }
   EXPECT_GT(met, 1000);
+}
+
+/// The floor, and a box whose upper side lies in it.
+TEST(RayScene, ReachesUpToItsRangeAndNoFartherAndOfTwoMeetsTheFirst) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><worldbody><geom type='plane' size='9 9 .1'/>"
+      "<geom type='box' size='.5 .5 .5' pos='0 0 -.5'/></worldbody></mujoco>");
+  const RayScene rays(*scene.model, *scene.data);
+  const Eigen::Vector3d eye(0.0, 0.0, 1.0);
+  const Eigen::Vector3d down(0.0, 0.0, -1.0);
+  const RayHit hit = rays.cast(eye, down, 1.0);
+  EXPECT_EQ(hit.geom_id, 0);
+  EXPECT_EQ(hit.distance_m, 1.0);
+  EXPECT_FALSE(rays.cast(eye, down, std::nextafter(1.0, 0.0)).hit());
+}
+
+TEST(RayScene, PlanesThatAreMovedByHandMove) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><worldbody><body mocap='true'><geom type='plane' size='9 9 .1'/></body>"
+      "</worldbody></mujoco>");
+  RayScene rays(*scene.model, *scene.data);
+  scene.data->mocap_pos[2] = 0.5;
+  mj_forward(scene.model.get(), scene.data.get());
+  rays.update(*scene.data);
+  EXPECT_NEAR(rays.cast({0.0, 0.0, 2.0}, {0.0, 0.0, -1.0}, 9.0).distance_m, 1.5, 1e-12);
+}
+
+TEST(RayScene, AFixedThingIsSeenWhereItIsTurnedTo) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><worldbody><body name='beam'><geom type='box' size='1 .1 .1'/></body>"
+      "</worldbody></mujoco>");
+  RayScene rays(*scene.model, *scene.data);
+  const Eigen::Vector3d eye(-2.0, 0.8, 0.0);
+  EXPECT_FALSE(rays.cast(eye, Eigen::Vector3d::UnitX(), 9.0).hit());
+  mjtNum* quat = scene.model->body_quat + 4 * scene.body("beam");
+  quat[0] = quat[3] = std::sqrt(0.5);  // a quarter of a turn about z
+  mj_forward(scene.model.get(), scene.data.get());
+  rays.update(*scene.data);
+  EXPECT_NEAR(rays.cast(eye, Eigen::Vector3d::UnitX(), 9.0).distance_m, 1.9, 1e-9);
+}
+
+TEST(RayScene, ALargeMeshIsSeenFromWithinAndFromWithout) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><asset><mesh name='hall' vertex='-3 -3 -3  3 -3 -3  3 3 -3  -3 3 -3  -3 -3 3  3 -3 3"
+      "  3 3 3  -3 3 3' face='0 2 1 0 3 2 4 5 6 4 6 7 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 4 3 "
+      "4 7'/></asset><worldbody><geom type='mesh' mesh='hall'/></worldbody></mujoco>");
+  const RayScene rays(*scene.model, *scene.data);
+  for (const double x_m : {-2.5, 0.0, 2.5}) {
+    const Eigen::Vector3d eye(x_m, 0.3, -0.2);
+    EXPECT_NEAR(rays.cast(eye, Eigen::Vector3d::UnitX(), 99.0).distance_m, 3.0 - x_m, 1e-5);
+    EXPECT_NEAR(rays.cast(eye, -Eigen::Vector3d::UnitX(), 99.0).distance_m, 3.0 + x_m, 1e-5);
+  }
+  EXPECT_NEAR(rays.cast({-9.0, 0.3, -0.2}, Eigen::Vector3d::UnitX(), 99.0).distance_m, 6.0, 1e-5);
+}
+
+/// A block of 1.2 m x 0.8 m, from 0.1 m below its place to 0.25 m above it.
+TEST(RayScene, AHeightFieldIsClosedAllRound) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><asset><hfield name='h' nrow='3' ncol='4' size='.6 .4 .5 .1'/></asset>"
+      "<worldbody><geom type='hfield' hfield='h'/></worldbody></mujoco>");
+  std::fill_n(scene.model->hfield_data, 12, 0.5F);
+  const RayScene rays(*scene.model, *scene.data);
+  const auto distance_m = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
+    return rays.cast(from, along, 99.0).distance_m;
+  };
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  for (const double a : {-0.55, -0.23, 0.13, 0.41}) {
+    for (const double b : {-0.33, -0.07, 0.21, 0.37}) {
+      EXPECT_NEAR(distance_m({a, b, -5.0}, z), 4.9, 1e-6) << a << " " << b;
+      EXPECT_NEAR(distance_m({a, b, 5.0}, -z), 4.75, 1e-6) << a << " " << b;
+    }
+  }
+  for (const double height_m : {-0.07, 0.03, 0.19}) {
+    for (const double b : {-0.33, -0.07, 0.21, 0.37}) {
+      EXPECT_NEAR(distance_m({-5.0, b, height_m}, x), 4.4, 1e-6) << b << " " << height_m;
+      EXPECT_NEAR(distance_m({5.0, b, height_m}, -x), 4.4, 1e-6) << b << " " << height_m;
+    }
+    for (const double a : {-0.55, -0.23, 0.13, 0.41}) {
+      EXPECT_NEAR(distance_m({a, -5.0, height_m}, y), 4.6, 1e-6) << a << " " << height_m;
+      EXPECT_NEAR(distance_m({a, 5.0, height_m}, -y), 4.6, 1e-6) << a << " " << height_m;
+    }
+  }
 }
 
 }  // namespace

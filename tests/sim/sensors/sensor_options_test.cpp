@@ -8,6 +8,7 @@
 #include "tests/support/mjcf.hpp"
 #include "tests/support/option_numbers.hpp"
 #include "vantage/sim/faults/outside_faults.hpp"
+#include "vantage/sim/render/renderer.hpp"
 #include "vantage/sim/render/window.hpp"
 #include "vantage/sim/robots/mobile_base.hpp"
 #include "vantage/sim/robots/odometry.hpp"
@@ -16,6 +17,7 @@
 #include "vantage/sim/sensors/laser.hpp"
 #include "vantage/sim/world/collision_surfaces.hpp"
 #include "vantage/sim/world/level_surfaces.hpp"
+#include "vantage/sim/world/mesh_surface.hpp"
 
 namespace vantage {
 namespace {
@@ -264,6 +266,48 @@ TEST(SimDefaults, OfImagesAreWhatPeopleSeeFirst) {
   EXPECT_EQ(RenderedImages{}.focal_px, 0.0);
   EXPECT_EQ(WheelTurned{}.notches, 0.0);
   EXPECT_EQ(PixelSize{}, (PixelSize{0, 0}));
+}
+
+TEST(SensorOptions, ASectorMayBeABillionthOfAStepShortOfItsBeams) {
+  const auto half_width_rad = [](double sector_rad) {
+    return field_of_view(LaserOptions{.sector_rad = sector_rad, .step_rad = 0.25}).half_width_rad;
+  };
+  EXPECT_EQ(half_width_rad(1.0 - 1.75e-10), 0.5) << "5 beams";
+  EXPECT_EQ(half_width_rad(1.0 - 3.75e-10), 0.375) << "4 beams";
+}
+
+TEST(DepthErrors, AreInStepsFromZeroOn) {
+  Rng rng(1);
+  // 1 / 0.003 z is 370.4 at 0.9 m.
+  EXPECT_NEAR(measured_depth_m(only_steps(0.8, 3.5), 0.9F, rng), 1.0 / (0.003 * 370.0), 1e-6);
+}
+
+TEST(DepthErrors, TheRangeHoldsItsEndsWhateverTheNoise) {
+  Rng rng(1);
+  RgbdOptions options = only_steps(0.5, 3.5);
+  options.quantisation_per_m = 0.0;
+  EXPECT_EQ(measured_depth_m(options, 0.5F, rng), 0.5F);
+  EXPECT_EQ(measured_depth_m(options, 3.5F, rng), 3.5F);
+}
+
+TEST(LaserLines, TheRangeHoldsItsEnds) {
+  const auto scene = wall_ahead();
+  const RayScene rays(*scene.model, *scene.data);
+  Rng rng(1);
+  for (const LaserOptions& options :
+       {LaserOptions{.sector_rad = 0.5, .step_rad = 0.25, .range_min_m = 2.0, .noise_sigma_m = 0.0},
+        LaserOptions{
+            .sector_rad = 0.5, .step_rad = 0.25, .range_max_m = 2.0, .noise_sigma_m = 0.0}}) {
+    ScanBuilder builder(options);
+    builder.add_line(rays, Pose::Identity(), 0.0, -1, rng);
+    EXPECT_EQ(builder.finish().range(0, 1), 2.0F);
+  }
+}
+
+TEST(SimDefaults, OfWhatIsDrawnAreLimits) {
+  EXPECT_EQ(kMaxMarkers, 5000U);
+  EXPECT_EQ(kLooksGroup, 5);
+  EXPECT_NE(keys::end, '\t') << "a key that is typed";
 }
 
 }  // namespace

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <string>
+#include <utility>
 
 #include "tests/support/mjcf.hpp"
 #include "vantage/sim/stepping/near_geoms.hpp"
@@ -161,6 +165,97 @@ TEST(NearGeomsReach, FastThingsAreNearAll) {
     far.scene.data->qvel[dof] = 9.9;
     far.near.start(*far.scene.data);
     EXPECT_EQ(far.is_near(), "....") << dof;
+  }
+}
+
+TEST(NearPairs, PlanesAndHillsReachWithoutEnd) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><asset><hfield name='h' nrow='3' ncol='4' size='1 1 1 1'/></asset><worldbody>"
+      "<geom type='plane' size='.1 .1 .1'/><geom type='hfield' hfield='h'/>"
+      "<body pos='5 0 .05'><freejoint/><geom size='.1'/></body></worldbody></mujoco>");
+  for (const int endless : {0, 1}) {
+    EXPECT_EQ(discard_far_pair(scene.model.get(), scene.data.get(), endless, 2), 0) << endless;
+    EXPECT_EQ(discard_far_pair(scene.model.get(), scene.data.get(), 2, endless), 0) << endless;
+  }
+}
+
+/// Which geoms of a scene are near another one.
+std::string nearness_in(const std::string& bodies, const std::string& assets = "") {
+  const auto scene = test::compile_mjcf("<mujoco><asset>" + assets + "</asset><worldbody>" +
+                                        bodies + "</worldbody></mujoco>");
+  NearGeoms near(*scene.model);
+  near.start(*scene.data);
+  std::string text;
+  for (int geom = 0; geom < scene.model->ngeom; ++geom) text += near.is_near(geom) ? '#' : '.';
+  return text;
+}
+
+/// Of 10 cm, falling.
+std::string ball_at(const std::string& place, const std::string& masks = "") {
+  return "<body pos='" + place + "'><freejoint/><geom size='.1' " + masks + "/></body>";
+}
+
+TEST(NearGeomsReach, IsThatToPlanesWhereverTheyLie) {
+  const std::string raised = "<geom type='plane' size='9 9 .1' pos='0 0 1'/>";
+  EXPECT_EQ(nearness_in(raised + ball_at("0 0 1.29")), "##");
+  EXPECT_EQ(nearness_in(raised + ball_at("0 0 1.31")), "..");
+  const std::string upright = "<geom type='plane' size='9 9 .1' pos='2 0 0' euler='0 90 0'/>";
+  EXPECT_EQ(nearness_in(upright + ball_at("2.29 0 5")), "##");
+  EXPECT_EQ(nearness_in(upright + ball_at("2.31 0 5")), "..");
+  EXPECT_EQ(nearness_in("<geom type='plane' size='9 9 .1'/>" +
+                        ball_at("0 0 " + fmt::format("{}", 0.1 + 0.2))),
+            "..")
+      << "at its end";
+}
+
+TEST(NearGeomsReach, HasNoEndToHillsAndToWhatIsMovedByHand) {
+  EXPECT_EQ(nearness_in("<geom type='hfield' hfield='h'/>" + ball_at("0 0 9"),
+                        "<hfield name='h' nrow='3' ncol='4' size='1 1 1 1'/>"),
+            "##");
+  for (const char* shape : {"type='plane' size='9 9 .1'", "type='box' size='.1 .1 .1'"}) {
+    EXPECT_EQ(nearness_in(std::string("<body mocap='true'><geom ") + shape + "/></body>" +
+                          ball_at("0 0 9")),
+              "##")
+        << shape;
+  }
+}
+
+TEST(NearGeomsReach, IsThatOfGeomsThatOnlyAskOrAreOnlyAsked) {
+  const std::string floor = "<geom type='plane' size='9 9 .1'/>";
+  for (const char* masks : {"contype='1' conaffinity='0'", "contype='0' conaffinity='1'"}) {
+    EXPECT_EQ(nearness_in(floor + ball_at("0 0 .29", masks)), "##") << masks;
+    EXPECT_EQ(nearness_in(floor + ball_at("0 0 .31", masks)), "..") << masks;
+  }
+  const std::string ghost = "<geom size='.1' contype='0' conaffinity='0'/>";
+  EXPECT_EQ(nearness_in(ghost + floor + ball_at("0 0 .31")).substr(1), "..") << "after a ghost";
+}
+
+TEST(NearGeomsReach, IsWithoutEndUntilItIsLookedAt) {
+  const auto scene = test::compile_mjcf("<mujoco><worldbody>" + ball_at("0 0 9") +
+                                        "<geom type='plane' size='9 9 .1'/></worldbody></mujoco>");
+  const NearGeoms near(*scene.model);
+  EXPECT_TRUE(near.is_near(0));
+  EXPECT_TRUE(near.is_near(1));
+}
+
+TEST(NearGeomsReach, OfWhatIsAsFastAsTheLimitHasNoEnd) {
+  Neighbours far({0.0, 0.0, 5.0});
+  far.scene.data->qvel[0] = -10.0;
+  far.near.follow(*far.scene.data);
+  EXPECT_EQ(far.is_near(), "####");
+}
+
+TEST(NearGeomsReach, IsTheSameUntilMoreThan10CentimetresAreGone) {
+  const auto scene =
+      test::compile_mjcf("<mujoco><worldbody><geom type='box' size='.5 9 9' pos='.85 0 0'/>" +
+                         ball_at("0 0 5") + "</worldbody></mujoco>");
+  NearGeoms near(*scene.model);
+  near.start(*scene.data);
+  for (const auto& [x_m, is_near] : {std::pair(0.1, false), std::pair(0.11, true)}) {
+    scene.data->qpos[0] = x_m;
+    mj_kinematics(scene.model.get(), scene.data.get());
+    near.follow(*scene.data);
+    EXPECT_EQ(near.is_near(0), is_near) << x_m;
   }
 }
 

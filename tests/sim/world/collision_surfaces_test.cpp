@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <string>
 
 #include "tests/sim/test_world.hpp"
 
@@ -56,6 +57,24 @@ TEST(CollisionSurfaces, LieOnWhatMayCollide) {
   ASSERT_EQ(surfaces.planes.size(), 1U);
   EXPECT_LT((surfaces.planes[0].p_world_m - Eigen::Vector3d(0.0, 0.0, -2.0)).norm(), 1e-12);
   EXPECT_LT((surfaces.planes[0].normal - Eigen::Vector3d(0.5, 0.0, std::sqrt(0.75))).norm(), 1e-9);
+}
+
+std::size_t points_on_box(const std::string& half, double spacing_m) {
+  const test::SceneFolder folder("<mujoco><worldbody><geom type='box' size='" + half +
+                                 "'/></worldbody></mujoco>");
+  const World world(folder.alone());
+  return collision_surfaces(world, {.robot_m = spacing_m, .scene_m = spacing_m})
+      .scene_world_m.size();
+}
+
+/// Plates of 20 cm, with 16 points on each of two sides and 12 round the middle between them.
+TEST(CollisionSurfaces, OfPointsATenthOfTheSpacingApartOneIsKept) {
+  EXPECT_EQ(points_on_box(".1 .1 .008", 0.1), 16U + 16U + 12U);
+  EXPECT_EQ(points_on_box(".1 .1 .004", 0.1), 16U);
+}
+
+TEST(CollisionSurfaces, OfWhatIsSmallerThanTheSpacingAreCorners) {
+  EXPECT_EQ(points_on_box(".1 .1 .1", 1.0), 8U);
 }
 
 }  // namespace

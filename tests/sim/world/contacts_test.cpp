@@ -90,5 +90,14 @@ TEST(CollisionCounter, HowSoonIsForTheCallerToSay) {
   EXPECT_EQ(counter.update(wall, 4.25), 1);
 }
 
+TEST(Contacts, WhatJustTouchesTouches) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><worldbody><geom type='plane' size='9 9 .1'/><body name='robot' pos='0 0 .125'>"
+      "<freejoint/><geom size='.125'/></body></worldbody></mujoco>");
+  ASSERT_EQ(scene.data->ncon, 1);
+  ASSERT_EQ(scene.data->contact[0].dist, 0.0);
+  EXPECT_THAT(contact_points(*scene.model, *scene.data, scene.body("robot")), ElementsAre(0));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -84,5 +84,22 @@ TEST(FloorPlan, WhatFollowsARugOrALampIsDrawn) {
   EXPECT_NEAR(area_m2(plan[0]), 1.2 * 0.8, 1e-9);
 }
 
+TEST(FloorPlan, ATentHasThreeCorners) {
+  const auto made = test::compile_mjcf(
+      "<mujoco><asset><mesh name='tent' vertex='0 0 0  1 0 0  0 1 0  .2 .2 1' "
+      "face='0 2 1  0 1 3  1 2 3  2 0 3'/></asset><worldbody><geom type='mesh' mesh='tent'/>"
+      "</worldbody></mujoco>");
+  const auto plan = floor_plan(*made.model, *made.data);
+  ASSERT_EQ(plan.size(), 1U);
+  EXPECT_EQ(plan[0].size(), 3U);
+  EXPECT_NEAR(area_m2(plan[0]), 0.5, 1e-6);
+}
+
+TEST(FloorPlan, AnOutlineBeginsAtItsLeftmostCorner) {
+  const auto plan = plan_of("<geom type='box' size='.6 .4 .5' pos='-2 -1 .5' euler='0 0 30'/>");
+  ASSERT_EQ(plan.size(), 1U);
+  for (const Eigen::Vector2d& corner : plan[0]) EXPECT_LE(plan[0].front().x(), corner.x() + 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "tests/support/mjcf.hpp"
 #include "vantage/sim/world/level_surfaces.hpp"
@@ -215,6 +216,55 @@ TEST(NearestToLevelLimits, ALevelOneThatIsLargerThanALeaningOneWins) {
                                   board(".6 .6", "0 0 .2", "name='low'"));
   ASSERT_TRUE(nearest);
   EXPECT_EQ(nearest->name, "low");
+}
+
+TEST(LevelSurfaceLimits, HoldTheirEnds) {
+  LevelSurfaceOptions options;
+  options.min_height_m = options.max_height_m = 0.5;
+  options.min_area_m2 = 1.0;
+  const auto scene = things("<geom type='box' size='.5 .5 .125' pos='0 0 .375'/>");
+  EXPECT_EQ(level_surfaces(*scene.model, *scene.data, options).size(), 1U);
+}
+
+TEST(LevelSurfaceLimits, BoardsAStepApartAreTwoAndBoardsAGapApartAreOne) {
+  LevelSurfaceOptions options;
+  options.height_step_m = 0.125;
+  options.gap_m = 0.25;
+  const auto count = [&](const char* z_m) {
+    const auto scene = things(std::string("<geom type='box' size='.5 .5 .125' pos='0 0 .375'/>"
+                                          "<geom type='box' size='.5 .5 .125' pos='1.25 0 ") +
+                              z_m + "'/>");
+    return level_surfaces(*scene.model, *scene.data, options).size();
+  };
+  EXPECT_EQ(count(".5"), 2U);
+  EXPECT_EQ(count(".375"), 1U);
+}
+
+TEST(LevelSurfaceLimits, OfEquallyLargeOnesTheFirstIsFirst) {
+  const auto found = tops_of(
+      "<geom name='one' type='box' size='.5 .25 .125' pos='0 0 .5'/>"
+      "<geom name='two' type='box' size='.5 .25 .125' pos='4 0 .5'/>");
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].name, "one");
+}
+
+TEST(NearestToLevelLimits, OfEquallyLargeOnesItIsTheFirst) {
+  const auto nearest = nearest_of(board(".5 .5", "0 0 .7", "name='one' euler='0 9 0'") +
+                                  board(".5 .5", "0 0 .7", "name='two' euler='0 9 0'"));
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->name, "one");
+}
+
+TEST(NearestToLevelLimits, APlaneMayLookDown) {
+  const auto nearest = nearest_of(
+      "<body name='lid' pos='0 0 .7' euler='0 172 0'>"
+      "<geom size='.05' pos='0 0 9' contype='0' conaffinity='0'/>"
+      "<geom type='plane' size='.5 .3 .1' contype='0' conaffinity='0'/></body>");
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->name, "lid");
+  EXPECT_NEAR(nearest->area_m2, 0.6, 1e-9);
+  EXPECT_NEAR(nearest->height_m, 0.7, 1e-9);
+  EXPECT_NEAR(nearest->tilt_rad, 8.0 * std::numbers::pi / 180.0, 1e-9);
 }
 
 }  // namespace

@@ -138,5 +138,46 @@ TEST(MeshSurface, AHeightFieldIsClosedBelow) {
   EXPECT_LT((vertex(12 + 6) - Eigen::Vector3d(0.2, 0.0, -0.1)).norm(), 1e-12);
 }
 
+TEST(MeshSurface, EveryAssetHasItsOwnSurface) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><asset>"
+      "<mesh name='small' vertex='0 0 0 .2 0 0 0 .2 0 0 0 .2' face='0 2 1 0 1 3 0 3 2 1 2 3'/>"
+      "<mesh name='large' vertex='0 0 0 .4 0 0 0 .4 0 0 0 .4' face='0 2 1 0 1 3 0 3 2 1 2 3'/>"
+      "<hfield name='low' nrow='3' ncol='4' size='.6 .4 .5 .1'/>"
+      "<hfield name='high' nrow='2' ncol='3' size='.2 .3 .4 .05'/></asset><worldbody>"
+      "<geom type='mesh' mesh='small'/><geom type='mesh' mesh='large'/>"
+      "<geom type='hfield' hfield='low'/><geom type='hfield' hfield='high'/></worldbody></mujoco>");
+  std::fill_n(scene.model->hfield_data, 12, 0.125F);
+  std::fill_n(scene.model->hfield_data + 12, 6, 0.5F);
+  const SurfaceMesh small = geom_triangles(*scene.model, 0, 1.0);
+  const SurfaceMesh large = geom_triangles(*scene.model, 1, 1.0);
+  EXPECT_EQ(large.vertices_m.size(), 4U);
+  EXPECT_EQ(large.triangles.size(), 4U);
+  EXPECT_NEAR(area(small), 0.06 + 0.02 * std::sqrt(3.0), 1e-6);
+  EXPECT_NEAR(area(large), 4.0 * area(small), 1e-6);
+  const SurfaceMesh high = geom_triangles(*scene.model, 3, 1.0);
+  ASSERT_EQ(high.vertices_m.size(), 12U);
+  EXPECT_LT((high.vertices_m[0] - Eigen::Vector3d(-0.2, -0.3, 0.2)).norm(), 1e-12);
+  EXPECT_LT((high.vertices_m[11] - Eigen::Vector3d(0.2, 0.3, -0.05)).norm(), 1e-12);
+}
+
+TEST(MeshSurface, ABoxHasEightCorners) {
+  EXPECT_EQ(surface_of("type='box' size='.1 .2 .3'", 1.0).vertices_m.size(), 8U);
+}
+
+TEST(MeshSurface, WhatIsThereForItsLooksAloneIsNotSolid) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><worldbody><geom size='.1' group='4'/><geom size='.1' group='5'/></worldbody>"
+      "</mujoco>");
+  EXPECT_EQ(solid_geoms(*scene.model), std::vector<int>{0});
+}
+
+TEST(MeshSurface, AnInvisibleMaterialMayBeTheFirst) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><asset><material name='air' rgba='1 1 1 0'/></asset><worldbody>"
+      "<geom size='.1' material='air'/><geom size='.1'/></worldbody></mujoco>");
+  EXPECT_EQ(solid_geoms(*scene.model), std::vector<int>{1});
+}
+
 }  // namespace
 }  // namespace vantage

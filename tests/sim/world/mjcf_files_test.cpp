@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <string>
+
 #include "tests/sim/test_world.hpp"
 
 namespace vantage {
@@ -92,6 +94,20 @@ TEST(MjcfFiles, KeepTheirFoldersUnlessTheyAreStripped) {
                     "<mesh file='deep/m.obj'/></asset></mujoco>",
                     {{"things/m.obj", ""}, {"things/deep/m.obj", ""}, {"deep/m.obj", ""}}),
               UnorderedElementsAre("scene.xml", "things/deep/m.obj", "deep/m.obj"));
+}
+
+TEST(MjcfFiles, AnAmpersandThatWasAnEntityBeginsNone) {
+  EXPECT_THAT(found("<mujoco><asset><mesh file='c&amp;amp;d.obj'/></asset></mujoco>",
+                    {{"c&amp;d.obj", ""}, {"c&d.obj", ""}}),
+              UnorderedElementsAre("scene.xml", "c&amp;d.obj"));
+}
+
+TEST(MjcfAttributes, EndWithTheirTag) {
+  const std::string mjcf = "<a b='c'><d e='f'/></a>";
+  const auto read = mjcf_attributes(mjcf);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].element, "a");
+  EXPECT_EQ(read[1].element, "d");
 }
 
 }  // namespace

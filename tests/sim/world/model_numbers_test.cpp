@@ -211,5 +211,49 @@ TEST(ModelNumbers, TheLargerNumberTellsWhatMayBeRounding) {
   EXPECT_NE(mass_by(-1.00005e-4), "");
 }
 
+/// A wedge, a field of hills and a ball.
+test::MjcfModel wedge_before_hills() {
+  return test::compile_mjcf(
+      "<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/>"
+      "<mesh name='wedge' vertex='0 0 0  .4 0 0  0 .3 0  0 0 .2' "
+      "face='0 2 1  0 1 3  0 3 2  1 2 3'/></asset><worldbody>"
+      "<geom name='wedge' type='mesh' mesh='wedge' pos='1 2 3'/>"
+      "<geom name='hills' type='hfield' hfield='h' pos='1 2 3'/>"
+      "<geom name='ball' size='.1' pos='1 2 3'/></worldbody></mujoco>");
+}
+
+TEST(ModelNumbers, OnlyAMeshIsLookedForByItsVertices) {
+  for (const auto& [geom, name] : {std::pair(1, "hills"), std::pair(2, "ball")}) {
+    EXPECT_THAT(
+        change_of(wedge_before_hills, [&, at = 3 * geom](mjModel& m) { m.geom_pos[at] += 0.9e-3; }),
+        testing::HasSubstr(fmt::format("position of geom '{}' would change", name)));
+  }
+  EXPECT_THAT(change_of(wedge_before_hills, [](mjModel& m) { m.body_pos[0] = 1.0; }),
+              testing::HasSubstr("position of body 'world' would change from 0 to 1"));
+}
+
+TEST(ModelNumbers, EveryNumberOfEveryVertexOfAMeshCounts) {
+  const std::string changed =
+      "a.xml: cannot stand beside a robot: the mesh of geom 'wedge' would change";
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_EQ(change_of(wedge, [&](mjModel& m) { m.mesh_vert[i] += 0.01F; }), changed) << i;
+  }
+  EXPECT_EQ(change_of(wedge_behind_balls, [](mjModel& m) { m.geom_quat[4 * 3 + 1] += 0.1; }),
+            changed);
+}
+
+TEST(ModelNumbers, TheFirstVertexMustBeFiniteToo) {
+  const auto scene = wedge();
+  scene.model->mesh_vert[0] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(message_of<InputError>([&] { check_model(*scene.model, "a.xml"); }),
+            "a.xml: a mesh has a vertex that is not finite");
+}
+
+TEST(ModelNumbers, ASceneIsNotCalledAsARobotEither) {
+  const auto scene = test::compile_mjcf("<mujoco model='robot/x'><worldbody/></mujoco>");
+  EXPECT_THAT(message_of<InputError>([&] { check_no_robot_names(*scene.model, "a.xml"); }),
+              testing::HasSubstr("'robot/x'"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/support/mjcf.hpp"
+#include "vantage/sim/stepping/near_pairs.hpp"
 
 namespace vantage {
 namespace {
@@ -54,6 +55,11 @@ TEST_F(MujocoErrors, WarningsGoToTheInnermostCollectorOfTheThread) {
   mju_warning("three");
   EXPECT_EQ(outer, (std::vector<std::string>{"one", "three"}));
   EXPECT_EQ(inner, (std::vector<std::string>{"two"}));
+}
+
+TEST_F(MujocoErrors, PairsThatAreFarApartAreLeftOut) {
+  install_mujoco_handlers();
+  EXPECT_EQ(mjcb_contactfilter, &discard_far_pair);
 }
 
 }  // namespace

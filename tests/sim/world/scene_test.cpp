@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <numbers>
 #include <thread>
 
 #include "tests/sim/test_world.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -304,6 +306,40 @@ TEST(Scene, ListensToMuJoCoFromTheFirstOneOn) {
     const std::string call = "'" + self + "' --gtest_brief=1 --gtest_filter=Scene." + first;
     EXPECT_EQ(std::system(call.c_str()), 0) << first;
   }
+}
+
+/// Files of this process that are open.
+std::ptrdiff_t open_files() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+}
+
+TEST(Scene, LeavesNoFilesBehind) {
+  const SceneFolder folder(test::scene_mjcf(""));
+  const support::TemporaryDirectory place;
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  ::setenv("TMPDIR", place.path().c_str(), 1);
+  load_model(folder.with_pr2());
+  const std::ptrdiff_t open = open_files();
+  load_model(folder.with_pr2());
+  EXPECT_EQ(open_files(), open);
+  EXPECT_TRUE(std::filesystem::is_empty(place.path()));
+  ::unsetenv("TMPDIR");
+  if (!kept.empty()) ::setenv("TMPDIR", kept.c_str(), 1);
+}
+
+TEST(Scene, SaysWhereItIsWrongAtTheEnd) {
+  const std::string said = scene_complaint(test::scene_mjcf("<geom size='x'/>"));
+  EXPECT_THAT(said, ::testing::EndsWith("line 4")) << said;
+  EXPECT_THAT(said, HasSubstr(", Element 'geom', line 4")) << said;
+}
+
+TEST(Scene, ThatAsksForTooLittleStackGetsMore) {
+  const SceneFolder folder(
+      "<mujoco><size nstack='10'/><worldbody><geom type='plane' size='1 1 1'/>"
+      "<body pos='0 0 .05'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody>"
+      "</mujoco>");
+  EXPECT_EQ(load_model(folder.alone()).model->nstack, 16000000);
 }
 
 }  // namespace

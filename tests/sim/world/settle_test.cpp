@@ -5,6 +5,7 @@
 
 #include "tests/sim/test_world.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 namespace {
@@ -108,6 +109,83 @@ TEST(Settle, LimitsAreThoseThatMapsAreJudgedWith) {
   EXPECT_EQ(limits.at_rest_m, 3e-4);
   EXPECT_EQ(limits.moved_m, 1e-3);
   EXPECT_EQ(limits.arm_m, 0.1);
+}
+
+/// What is said of a ball at the origin, without gravity, that moves at 1 m/s or rad/s that way.
+std::string said_of_motion(int dof, const SettleLimits& limits) {
+  const SceneFolder folder(
+      "<mujoco><option gravity='0 0 0'/><worldbody><body name='ball'><freejoint/>"
+      "<geom size='.1'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.data().qvel[dof] = 1.0;
+  return message_of<InputError>([&] { settle_free_bodies(world, limits); });
+}
+
+TEST(Settle, EveryWayOfMovingAndTurningIsAMotion) {
+  for (int dof = 0; dof < 6; ++dof) {
+    EXPECT_THAT(said_of_motion(dof, {.max_s = 0.5}), HasSubstr("body 'ball'")) << dof;
+  }
+}
+
+TEST(Settle, AWindowMayBeAsLongAsAStep) {
+  EXPECT_THAT(said_of_motion(0, {.max_s = 0.01, .window_s = 0.0025}),
+              HasSubstr("still moves at 1 m/s"));
+}
+
+/// It is back where it was after a quarter of a second, which alone is no rest.
+TEST(Settle, WhatIsThrownUpIsNotAtRestAtTheTop) {
+  const SceneFolder folder(
+      "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.1'/></body></worldbody>"
+      "</mujoco>");
+  World world(folder.alone());
+  world.data().qvel[2] = 9.81 * 0.0025 * 101.0 / 2.0;
+  EXPECT_THAT(message_of<InputError>([&] { settle_free_bodies(world, {.max_s = 1.0}); }),
+              HasSubstr("body 'ball'"));
+}
+
+TEST(Settle, TwoQuietWindowsAreRestWhateverComesThen) {
+  const SceneFolder folder(
+      "<mujoco><option gravity='0 0 0'/><worldbody>"
+      "<body pos='-.8 0 0'><joint type='slide' axis='1 0 0'/><geom size='.1'/></body>"
+      "<body name='ball'><freejoint/><geom size='.1'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.data().qvel[0] = 1.0;  // which meets the ball after 0.6 s
+  EXPECT_THAT(settle_free_bodies(world), IsEmpty());
+}
+
+TEST(Settle, OnlyFreeBodiesOfTheSceneHaveToRest) {
+  const SceneFolder folder(test::scene_mjcf(
+      "<body pos='5 0 3'><joint axis='0 1 0'/><geom size='.1' pos='.5 0 0'/></body>"
+      "<body name='robot/base' pos='0 5 50'><freejoint/><geom size='.1'/></body>"
+      "<body name='cube' pos='0 0 .05'><freejoint/><geom type='box' size='.05 .05 .05'/></body>"));
+  World world(folder.alone());
+  EXPECT_THAT(settle_free_bodies(world), IsEmpty());
+}
+
+TEST(Settle, WhatRestsKeepsItsPlaceBesideWhatFalls) {
+  const std::string shape = "<freejoint/><geom type='box' size='.05 .05 .05'/></body>";
+  const SceneFolder folder(test::scene_mjcf("<body name='first' pos='0 0 .05'>" + shape +
+                                            "<body name='falls' pos='1 0 .2'>" + shape +
+                                            "<body name='last' pos='2 0 .05'>" + shape));
+  World world(folder.alone());
+  world.data().qvel[12] = 1e-3;  // hardly slides
+  const std::vector<double> before(world.data().qpos, world.data().qpos + 21);
+  EXPECT_THAT(settle_free_bodies(world), ElementsAre("'falls'"));
+  for (std::size_t i = 0; i < 21; ++i) {
+    if (i < 7 || i >= 14) {
+      EXPECT_EQ(world.data().qpos[i], before[i]) << i;
+    }
+  }
+  EXPECT_NEAR(world.data().qpos[9], 0.05, 1e-3);
+}
+
+TEST(Settle, WhatTurnsStartsAsItCameToRest) {
+  const SceneFolder folder(test::scene_mjcf(
+      "<body name='cube' pos='0 0 .05'><freejoint/><geom type='box' size='.05 .05 .05'/></body>"));
+  World world(folder.alone());
+  world.data().qvel[5] = 6.0;
+  EXPECT_THAT(settle_free_bodies(world), ElementsAre("'cube'"));
+  EXPECT_GT(project_to_se2(body_pose(world, 1)).yaw_rad, 0.02);
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <thread>
 
 #include "tests/sim/test_world.hpp"
@@ -297,6 +299,75 @@ TEST(World, SaysWhatIsWrongWithAStateOrCommands) {
             "a state of " + file + " has 7 numbers, not 6");
   EXPECT_EQ(message_of<InputError>([&] { world.set_controls(state); }),
             file + " has 1 actuators, not 6");
+}
+
+TEST(World, SnapshotShowsEveryHandWhereItIs) {
+  const SceneFolder folder(
+      "<mujoco><worldbody><body name='bare' mocap='true' pos='1 2 3'/>"
+      "<body name='left' mocap='true'><geom size='.1'/></body>"
+      "<body name='right' mocap='true'><geom size='.1'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  for (const char* name : {"bare", "left", "right"}) {
+    const int body = model_id(world.model(), ModelObject::body, name);
+    const Eigen::Vector3d p_m(7.0 + body, 8.0, 9.0);
+    std::copy(p_m.begin(), p_m.end(),
+              world.data().mocap_pos + 3 * world.model().body_mocapid[body]);
+    EXPECT_EQ(Eigen::Vector3d(body_pose(world, body).translation()), p_m) << name;
+  }
+}
+
+TEST(World, SnapshotHasCamerasThatFollowAMass) {
+  const SceneFolder folder(
+      "<mujoco><worldbody><body pos='2 0 0'><joint name='rail' type='slide' axis='0 1 0'/>"
+      "<geom size='.1'/><camera name='eye' mode='trackcom' pos='-1 0 0'/></body></worldbody>"
+      "</mujoco>");
+  World world(folder.alone());
+  world.set_initial_joint("rail", 0.75);
+  EXPECT_NEAR(world.snapshot().cam_xpos[1], 0.75, 1e-12);
+}
+
+TEST(World, WhatIsPutElsewhereTakesItsMarksAlong) {
+  const SceneFolder folder(
+      "<mujoco><worldbody><body name='shelf' pos='5 0 .5'><geom type='box' size='.4 .4 .1'/>"
+      "<site name='mark' pos='0 0 .1'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.put_fixed_body(model_id(world.model(), ModelObject::body, "shelf"), {0.1, 0.2, 0.3});
+  const Pose mark = site_pose(world, model_id(world.model(), ModelObject::site, "mark"));
+  EXPECT_LT((mark.translation() - Eigen::Vector3d(0.1, 0.2, 0.4)).norm(), 1e-12);
+}
+
+TEST(WorldOptions, APeriodMayBeOneStepAndANanosecondOff) {
+  EXPECT_NO_THROW((WorldOptions{0.02, 0.02}.check()));
+  EXPECT_NO_THROW((WorldOptions{0.0025, 0.025 + 0.7e-9}.check()));
+  EXPECT_THROW((WorldOptions{0.0025, 0.025 + 1.5e-9}.check()), ConfigError);
+}
+
+TEST(World, NoJointIsBlamedForALackOfRoom) {
+  const SceneFolder folder(
+      "<mujoco><size nconmax='100' njmax='2'/><worldbody><geom type='plane' size='1 1 1'/>"
+      "<body pos='0 0 .099'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody>"
+      "</mujoco>");
+  World world(folder.alone());
+  const std::string said = message_of<DivergedError>([&] {
+    for (int i = 0; i < 20; ++i) world.advance_tick();
+  });
+  EXPECT_THAT(said, HasSubstr("njmax"));
+  EXPECT_THAT(said, ::testing::Not(HasSubstr("(joint")));
+}
+
+TEST(World, ThatDivergedIsNotSteppedBeforeItHasAState) {
+  const SceneFolder folder(kBall);
+  const auto spoilt = [&](const std::function<void(mjData&)>& spoil) {
+    auto world = std::make_unique<World>(folder.alone());
+    spoil(world->data());
+    EXPECT_THROW(world->advance_tick(), DivergedError);
+    return world;
+  };
+  const auto diverged = spoilt([](mjData& data) { data.qpos[7] = std::nan(""); });
+  const auto failed = spoilt([](mjData& data) { data.nstack = 1; });
+  const auto refused = ::testing::ExitedWithCode(static_cast<int>(ExitCode::internal));
+  EXPECT_EXIT(diverged->advance_tick(), refused, "a diverged world");
+  EXPECT_EXIT(failed->advance_tick(), refused, "a diverged world");
 }
 
 }  // namespace
