@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -255,6 +258,45 @@ TEST(Tasks, AMapThatIsAutoIsLeftToTheScene) {
   EXPECT_THAT(*part.cells, testing::ElementsAre(3, 5, 7));
   EXPECT_THROW(map_of("map: 'auto'\n"), ConfigError) << "a text";
   EXPECT_THROW(map_of("map: {centre_m: 'auto'}\n"), ConfigError) << "a text";
+}
+
+TEST(Tasks, HaveAllTheirKeys) {
+  const std::map<std::string_view, std::set<std::string>> keys = {
+      {"tabletop",
+       {"base_scanner", "budget",   "candidates", "choice",       "clutter_hazard", "drive",
+        "floor_map",    "forecast", "free_space", "gain",         "hole_filling",   "intervals",
+        "laser",        "map",      "metrics",    "localisation", "navigation",     "objects",
+        "odometry",     "planning", "scans",      "registration", "sensor_model",   "table"}},
+      {"change_detection",
+       {"aim_height_m",    "arc_rad",     "bearings",      "camera",     "colour_noise",
+        "database",        "distance_m",  "elevation_rad", "exposure",   "model",
+        "object",          "placement_m", "recogniser",    "scenario",   "segmentation",
+        "settle_s",        "table_m",     "tracking",      "turned_rad", "expected_object",
+        "expected_yaw_rad"}},
+      {"trajectory",
+       {"camera", "camera_pitch_rad", "colour_noise", "database", "exposure", "horizon",
+        "image_rate_hz", "latency_s", "map", "method", "model", "observations", "placement_m",
+        "planner", "recogniser", "search", "tracker", "tracking", "transition"}}};
+  std::size_t found = 0;
+  for_each_task([&](const auto& task) {
+    const auto of_task = keys.find(task.name);
+    if (of_task == keys.end()) return;
+    ++found;
+    EXPECT_THAT(keys_of(task), testing::IsSupersetOf(of_task->second)) << task.name;
+  });
+  EXPECT_EQ(found, keys.size());
+}
+
+TEST(Tasks, ATableTopHasTheKeysOfItsParts) {
+  std::set<std::string> keys;
+  for (const KeyDescription& key : describe_episode(Tabletop{})) keys.insert(key.key);
+  for (const char* key :
+       {"budget.energy_j", "budget.return_to_start", "budget.time_s", "localisation.accept_drift",
+        "localisation.loops.close", "localisation.max_contradicted", "localisation.tolerance_cells",
+        "map.cells", "map.centre_m", "map.size_m", "metrics.distance_band_m", "metrics.predictors",
+        "metrics.tolerance_cells"}) {
+    EXPECT_TRUE(keys.contains(key)) << key;
+  }
 }
 
 /// As a study sets keys over those of its episode.

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "tests/tasks/exploration/scripted_drive.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
 #include "vantage/core/names.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/planners/views/left_forecast.hpp"
@@ -137,7 +139,10 @@ TEST(ExplorationParts, FallBackIfTheViewIsOutOfReachOrIsNotReached) {
     view.reachable = reachable;
     view.path_length_m = 0.75;
     view.T_world_sensor = to_se3({x_m, 0.0, 0.0}) * drive.robot.T_base_sweep();
+    testing::internal::CaptureStderr();
     parts.act(view);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said.find("view 3 is out of reach") != std::string::npos, x_m > 1.0) << said;
     EXPECT_EQ(parts.current_.chosen_view, 3);
     EXPECT_EQ(parts.current_.planned_way_m, 0.75);
     return parts.current_.fallback;
@@ -176,6 +181,7 @@ TEST(ExplorationParts, StayAwayFromWhereAScanShowedTooLittle) {
   EXPECT_TRUE(proposes(2000.0, 0.35, 18));
   EXPECT_FALSE(proposes(2000.0, 0.25, 18));
   EXPECT_TRUE(proposes(1999.0, 0.35, 17));
+  EXPECT_TRUE(proposes(1999.0, 0.25, 17)) << "once more, since nothing else is left";
 }
 
 /// All cells are said to be known, and no view promises as many. A scan that shows more than ten
@@ -210,17 +216,25 @@ TEST(EnoughToStop, IsMeasuredByWhatIsKnown) {
   drive.belief.update(wall_view(1.5F), {});
   drive.belief.refill();
   drive.task.gain = SimpleGain{};
-  drive.task.enough.share = 1.0;
+  drive.task.enough.share = 2.0;
   drive.task.enough.scans = 1;
   OpenExploration parts(drive.context(), drive.task, drive.robot, drive.belief);
   parts.open_floor();
   const std::size_t cells = drive.belief.grid().size();
-  parts.record_as(0.0, cells - 10);
-  EXPECT_EQ(parts.finished(), "") << "a view promises more than 10 cells";
+  const auto said = [&](std::size_t unobserved_cells) {
+    log_to_file(drive.folder / "enough.txt");
+    parts.record_as(0.0, unobserved_cells);
+    log_to_file({});
+    return read_file(drive.folder / "enough.txt").find("views is worth it") != std::string::npos;
+  };
+  EXPECT_FALSE(said(cells - 10));
+  EXPECT_EQ(parts.finished(), "") << "a view promises more than 20 cells";
   EXPECT_FALSE(parts.views_have_gains_) << "by another gain than that in use";
   EXPECT_EQ(parts.views().front().gain_bits, 0.0);
-  parts.record_as(0.0, 0);
-  EXPECT_NE(parts.finished().find("1 in a row"), std::string::npos) << parts.finished();
+  EXPECT_TRUE(said(0));
+  EXPECT_NE(parts.finished().find("1 in a row, no view promised more than 200 %"),
+            std::string::npos)
+      << parts.finished();
 }
 
 TEST(LeftToSee, IsWhatTheViewsShowBesideWhatIsKnown) {
@@ -244,6 +258,28 @@ TEST(LeftToSee, IsWhatTheViewsShowBesideWhatIsKnown) {
   EXPECT_LT(some.expected_cells, static_cast<double>(cells));
   EXPECT_NEAR(some.share, some.expected_cells / (5000.0 + some.expected_cells), 1e-12);
   EXPECT_EQ(some.confidence, confidence_of_left(some.share, 1.0 - 0.9));
+  drive.task.reach_m = 0.0;
+  EXPECT_EQ(left().expected_cells, some.expected_cells) << "however far from their frontiers";
+}
+
+/// A wall at x = 1.2 m keeps them from two of the five places.
+TEST(ExplorationParts, ProposeThePlacesOfTheOracleThatAreInReachAndNotTaken) {
+  ScriptedDrive drive({"choice=oracle_tour"});
+  OpenExploration parts(drive.context(), drive.task, drive.robot, drive.belief);
+  parts.open_floor();
+  block_box(parts.navigator_.floor(), {Eigen::Vector2d(1.2, -2.0), Eigen::Vector2d(1.4, 2.0)});
+  parts.record_as(5000.0, 0);
+  ASSERT_EQ(parts.views().size(), 3U);
+  const Eigen::Vector2d first_m = parts.views()[0].T_world_sensor.translation().head<2>();
+  for (const std::size_t expected : {3U, 2U}) {
+    ASSERT_EQ(parts.views().size(), expected);
+    for (std::size_t i = 0; i < parts.views().size(); ++i) {
+      EXPECT_EQ(parts.views()[i].id, static_cast<int>(i));
+      EXPECT_TRUE(std::isfinite(parts.views()[i].path_length_m));
+      EXPECT_LT(parts.views()[i].T_world_sensor.translation().x(), 0.6);
+    }
+    parts.record_as(5000.0, 0, first_m);
+  }
 }
 
 TEST(ExplorationParts, GoOnWhileItIsNotSureThatEnoughHasBeenSeen) {
@@ -255,6 +291,7 @@ TEST(ExplorationParts, GoOnWhileItIsNotSureThatEnoughHasBeenSeen) {
   parts.open_floor();
   parts.record_as(5000.0, 0);
   ASSERT_FALSE(parts.views().empty());
+  EXPECT_FALSE(parts.views_have_gains_) << "nobody asked";
   LeftRecord left;
   for (const double confidence : {0.79, 0.8}) {
     left.confidence = confidence;

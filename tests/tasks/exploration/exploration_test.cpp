@@ -265,6 +265,7 @@ TEST(Exploration, NamesTheSitesItCouldStartFrom) {
     for (const char* part : {"robot.start_site", "start_9", "start_0", "start_4"}) {
       EXPECT_NE(what.find(part), std::string::npos) << what;
     }
+    EXPECT_EQ(what.find("robot/", what.find("known:")), std::string::npos) << what;
   }
   EXPECT_THROW(explore(folder.path() / "run", {"robot.start_pose=[0.6,2,0]"}), ConfigError)
       << "inside a wall";

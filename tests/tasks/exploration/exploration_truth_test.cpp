@@ -13,6 +13,7 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/geometry/floor_outline.hpp"
 #include "vantage/tasks/exploration/exploration_map_evaluator.hpp"
 #include "vantage/tasks/exploration/simulated_exploration_robot.hpp"
 #include "vantage/tasks/exploration/start_check.hpp"
@@ -110,9 +111,30 @@ TEST(ExplorationStart, NeedsFloorAndRoomOnIt) {
         "<geom type=\"box\" pos=\"{} {} -0.05\" size=\"0.65 0.03 0.05\" euler=\"0 0 {}\"/>",
         0.55 * std::cos(angle_rad), 0.55 * std::sin(angle_rad), degrees);
   };
+  EXPECT_EQ(complaint(strip(0.0)), "");
   EXPECT_EQ(complaint(strip(15.0)), "");
   EXPECT_EQ(complaint(strip(345.0)), "");
   EXPECT_TRUE(says(complaint(strip(7.5)), "no free floor")) << "between two directions";
+}
+
+/// Looked for 20 cm above the floor.
+TEST(ExplorationStart, HasRoomBelowWhatHangsHigherThanAnAnkle) {
+  const AskedScene scene;
+  AskedRobot robot(scene.episode.setup, scene.task);
+  const auto complaint = [&](double bottom_m) {
+    const std::filesystem::path file = scene.folder / "shelves.xml";
+    const std::string shelves = slab_of(-0.8, -0.8, -0.7, 0.8, bottom_m, 1.0) +
+                                slab_of(0.7, -0.8, 0.8, 0.8, bottom_m, 1.0) +
+                                slab_of(-0.7, -0.8, 0.7, -0.7, bottom_m, 1.0) +
+                                slab_of(-0.7, 0.7, 0.7, 0.8, bottom_m, 1.0);
+    write_file(file, "<mujoco><worldbody>" + slab_of(-3.0, -3.0, 3.0, 3.0, -0.1, 0.0) + shelves +
+                         "</worldbody></mujoco>");
+    const World world(ModelSource{file, {}});
+    return robot.complaint(RayScene(world.model(), world.snapshot()), scene.episode.setup,
+                           scene.task);
+  };
+  EXPECT_EQ(complaint(0.25), "");
+  EXPECT_TRUE(says(complaint(0.15), "no free floor"));
 }
 
 TEST(ExplorationStart, IsOnTheMapAndTheWholeRobotOnTheFloorMap) {
@@ -265,6 +287,56 @@ TEST(CoverageOfAnExploration, IsOfTheBasesGivenAndOfObservingPoses) {
     EXPECT_GE(way_m, straight_m - 1e-9) << i;
     EXPECT_LT(way_m, straight_m + 0.2) << i << ", on open floor";
   }
+}
+
+/// A wall across the map with a gap of 14 cm, which on a map whose cells are 20 cm long nothing is
+/// too wide for, and a wide opening a metre to the right.
+TEST(CoverageOfAnExploration, TakesForWaysWhatMightBeWiderThanTheMapSays) {
+  AskedScene scene(
+      slab_of(-2.05, -0.05, -0.02, 0.05, 0.0, 1.5) + slab_of(0.12, -0.05, 0.95, 0.05, 0.0, 1.5),
+      "[-1,-1,0]", "4");
+  scene.task.map.cells = {40, 20, 20};
+  const std::vector<Pose2> bases{{0.05, -0.8, 0.0}, {0.05, 0.8, 0.0}};
+  const ViewCoverage coverage = scene.task.coverage(scene.episode.setup, bases);
+  ASSERT_GE(coverage.way_m.rows(), 2);
+  EXPECT_GE(coverage.way_m(0, 1), 1.6 - 1e-9);
+  EXPECT_LT(coverage.way_m(0, 1), 1.75);
+}
+
+/// A corridor of 0.9 m, which its outline fits through, but no disc round it.
+TEST(TrueWays, AreThoseOfTheOutlineIfADiscLeavesEnoughOut) {
+  AskedScene scene(slab_of(0.3, 0.45, 1.8, 2.05, 0.0, 1.5) +
+                       slab_of(0.3, -2.05, 1.8, -0.45, 0.0, 1.5) +
+                       slab_of(1.8, -2.05, 2.05, 2.05, 0.0, 1.5),
+                   "[-1,0,0]", "4");
+  const SimulatedExplorationRobot robot(scene.episode.setup, scene.task);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const auto evaluator = [&] {
+    return ExplorationMapEvaluator(scene.task, 2, truth, robot.view_field(), robot.T_base_sweep());
+  };
+  const ExplorationMapEvaluator of_disc = evaluator();
+  const PathField& field = *of_disc.true_paths();
+  const double might_m = inscribed_radius_m(truth.outline().outline) - 0.1;
+  std::vector<Eigen::Array2i> reached;
+  for (std::size_t cell = 0; cell < field.map.size(); ++cell) {
+    if (field.reachable(cell)) reached.push_back(field.map.cell(cell));
+  }
+  const double near = std::pow(0.6 / field.map.cell_m, 2);
+  int left = 0;
+  for (std::size_t cell = 0; cell < field.map.size(); ++cell) {
+    if (static_cast<double>(field.clearance_m[cell]) < might_m) continue;
+    const Eigen::Array2i at = field.map.cell(cell);
+    left += std::ranges::none_of(reached, [&](const Eigen::Array2i& other) {
+      return static_cast<double>((at - other).square().sum()) <= near;
+    });
+  }
+  ASSERT_GT(left, 100);
+  const double left_m2 = left * field.map.cell_m * field.map.cell_m;
+  scene.task.passages.use = true;
+  scene.task.passages.least_area_m2 = 1.001 * left_m2;
+  EXPECT_TRUE(evaluator().true_paths()->space == nullptr);
+  scene.task.passages.least_area_m2 = 0.999 * left_m2;
+  EXPECT_TRUE(evaluator().true_paths()->space != nullptr);
 }
 
 TEST(ExplorationOptions, AreCheckedWithTheRestOfTheEpisode) {

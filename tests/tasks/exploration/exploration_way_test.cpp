@@ -22,6 +22,8 @@ TEST(ImagesOnTheWay, AreOfTheMapWhereTheBaseIsBelievedToBe) {
   ScriptedDrive drive;
   drive.task.gaze.on_the_way_m = 0.5;
   OpenExploration parts(drive.context(), drive.task, drive.robot, drive.belief);
+  parts.navigator_.on_the_way();
+  EXPECT_TRUE(drive.robot.looks.empty()) << "before the first scan";
   parts.scans_.emplace_back();
   drive.robot.view = wall_view(1.5F);
   const auto asked_at = [&](double x_m, double y_m) {
@@ -84,6 +86,53 @@ TEST(ImagesOnTheWay, AreKeptByTheKeyframeBeforeThem) {
   EXPECT_TRUE(T_world_camera.isApprox(to_se3(base) * drive.robot.view->T_base_camera, 1e-9));
 }
 
+/// Once there. Without images on the way holes stay as they are.
+TEST(ImagesOnTheWay, HaveTheirHolesFilledWhenTheRobotIsThere) {
+  ScriptedDrive drive;
+  drive.task.gaze.on_the_way_m = 0.5;
+  OpenExploration parts(drive.context(), drive.task, drive.robot, drive.belief);
+  parts.open_floor();
+  parts.record_as(5000.0, 0);
+  drive.robot.view = wall_view(1.0F);
+  parts.navigator_.on_plan = [&](const PlannedPath&) {
+    parts.navigator_.on_the_way();
+    drive.robot.T_world_base = {0.6, 0.0, 0.0};
+    EXPECT_EQ(drive.belief.filled_grid().count(CellState::occupied), 0U);
+    parts.navigator_.on_the_way();
+  };
+  Candidate goal;
+  goal.T_world_sensor = to_se3({1.2, 0.0, 0.0}) * drive.robot.T_base_sweep();
+  parts.act(goal);
+  ASSERT_EQ(parts.current_.images_on_the_way, 1);
+  const std::size_t filled = drive.belief.filled_grid().count(CellState::occupied);
+  EXPECT_GT(filled, 0U);
+
+  parts.navigator_.on_plan = nullptr;
+  drive.belief.update(wall_view(1.0F), {-1.0, 0.0, 0.0});
+  parts.act(goal);
+  EXPECT_EQ(drive.belief.filled_grid().count(CellState::occupied), filled);
+}
+
+TEST(PartialScans, TakeMoreImagesAfterALongerWay) {
+  ScriptedDrive drive;
+  drive.task.gaze.worth = 1.0;
+  drive.belief.update(wall_view(1.5F), {});
+  drive.belief.refill();
+  const auto share_after = [&](double way_s) {
+    OpenExploration parts(drive.context(), drive.task, drive.robot, drive.belief);
+    parts.open_floor();
+    parts.record_as(5000.0, 0);
+    parts.scans_.back().time_s = drive.robot.time_s() - way_s;
+    Candidate here;
+    here.T_world_sensor = to_se3(drive.robot.T_world_base) * drive.robot.T_base_sweep();
+    parts.act(here);
+    return parts.current_.scan_share;
+  };
+  const double at_once = share_after(0.0);
+  EXPECT_GT(at_once, 0.0);
+  EXPECT_GT(share_after(1000.0), at_once);
+}
+
 /// In a room of 8 x 6 m, tracked 0.7 m apart where it is 0.6 m: what was chosen, driven and seen at
 /// the fifth place moves by 0.4 m.
 TEST(LoopsOfAnExploration, MoveWhatWasChosenAndSeen) {
@@ -130,7 +179,8 @@ TEST(LoopsOfAnExploration, MoveWhatWasChosenAndSeen) {
 
   parts.end();
   ASSERT_NEAR(drive.robot.T_world_base.x_m, 1.0, 0.05);
-  EXPECT_NEAR(parts.navigator_.path_m()[last].x(), 1.0, 0.05);
+  for (const Eigen::Vector2d& p_m : parts.navigator_.path_m()) EXPECT_NEAR(p_m.x(), 1.0, 0.05);
+  EXPECT_EQ(parts.current_.unobserved_cells, 0U) << "no scan is under way";
   std::vector<Pose2> T_world_bases;
   for (const auto& seen : parts.navigator_.loops()->remembered()) {
     T_world_bases.push_back(seen.T_world_base);

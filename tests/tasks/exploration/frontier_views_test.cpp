@@ -152,5 +152,11 @@ TEST_F(FrontierViews, LookOnInTheDirectionThatTheRobotComesFrom) {
   EXPECT_EQ(found().size(), 3U) << "visited is where the sensor was";
 }
 
+TEST_F(FrontierViews, AreNoneWhereTheRobotCanStandNowhere) {
+  floor_.log_odds.assign(floor_.size(), 2.0F);
+  EXPECT_TRUE(views(false).empty());
+  EXPECT_TRUE(views(true).empty());
+}
+
 }  // namespace
 }  // namespace vantage

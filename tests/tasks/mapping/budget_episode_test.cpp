@@ -313,9 +313,12 @@ TEST(Navigator, WhereItDoesNotGetOnItGoesAnotherWay) {
   };
   put_walls();
   const Pose2 beyond{1.4, 0.0, 1.0};
-  EXPECT_TRUE(navigator.approach(beyond, std::nullopt).reached);
+  const Approach detour = navigator.approach(beyond, std::nullopt);
+  EXPECT_TRUE(detour.reached);
   EXPECT_EQ(robot.touches, 1);
   EXPECT_GT(robot.paths.size(), 4U);
+  EXPECT_DOUBLE_EQ(detour.path_length_m, 0.25 * static_cast<double>(robot.paths.size()))
+      << "with the way that it backed off";
 
   robot.T_world_base = {-1.25, 0.0, 0.0};
   put_walls();  // as the map is made anew

@@ -208,5 +208,40 @@ TEST(MappingParts, ShowTheirScansTheirGoalAndTheirPlan) {
   EXPECT_EQ(cv::norm(shown, draw_map_panel(expected, {640, 720}), cv::NORM_INF), 0.0);
 }
 
+TEST(MappingParts, ShowTheWayToTheirFirstViewBeforeAnyScan) {
+  if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
+  support::StillTable& table = support::still_table();
+  const support::TemporaryDirectory folder;
+  const RunRequest request =
+      support::mapping_request(table.episode, {folder.path() / "run", true, true, {}, true});
+  const EpisodeRun run(request);
+  MappingRecorder recorder(run, recorded(table.robot), {}, 5);
+  support::StillBelief belief(table.options, table.task);
+  belief.grid_.log_odds[belief.grid_.size() / 2] = 3.0F;
+  PanelParts parts(MappingContext{table.options, table.robot, table.evaluator, recorder, nullptr},
+                   table.task, table.robot, belief);
+  parts.current_.chosen_view = 0;
+  parts.tour_.stops = {{.id = 0}, {.id = 24}};
+  recorder.scan({}, 1, belief.grid());
+
+  MapPanelInput expected;
+  expected.grid = &belief.grid();
+  for (const Candidate& view : parts.views()) {
+    expected.T_world_candidates.push_back(view.T_world_sensor);
+  }
+  const Pose& first = expected.T_world_candidates[0];
+  const Pose& second = expected.T_world_candidates[24];
+  expected.T_world_chosen = {first};
+  expected.T_world_base = table.robot.T_world_base;
+  expected.tour.stops = {{.id = 0, .place_m = first.translation().head<2>()},
+                         {.id = 24, .place_m = second.translation().head<2>()}};
+  expected.scans_planned = table.task.scans;
+  expected.method = table.task.method_name();
+  const cv::Mat still = cv::imread((folder.path() / "run/frames/scan_01.png").string());
+  ASSERT_EQ(still.size(), cv::Size(1280, 720));
+  const cv::Mat shown = still(cv::Rect(640, 0, 640, 720));
+  EXPECT_EQ(cv::norm(shown, draw_map_panel(expected, {640, 720}), cv::NORM_INF), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,4 +1,5 @@
 // What mapping parts make of loops: records that move, how sure poses are, and doubts of the map.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 
 #include "tests/localisation/plan_world.hpp"
 #include "tests/tasks/mapping/still_table.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
 
 namespace vantage {
 namespace {
@@ -118,7 +121,15 @@ TEST(MappingLoops, MoveAllRecordsAndWhatWasIntended) {
     EXPECT_NEAR(record.pose_sigma_m, pose_sigma_m(covariance), 1e-9);
     EXPECT_NEAR(record.map_sigma_m, sigma_of_map_m(at.belief, moved, covariance), 1e-9);
   };
+  const auto moved_m = [&](std::size_t keyframe) {
+    const Pose2 moved = correction.moved(Pose2{1.0, 0.25, 0.5}, keyframe);
+    return std::hypot(moved.x_m - 1.0, moved.y_m - 0.25);
+  };
+  ASSERT_GT(moved_m(2), moved_m(1) + 0.001);
+  ASSERT_GT(moved_m(3), moved_m(2) + 0.001);
   const int restarts = at.table.robot.restarts;
+  const auto log = at.table.folder / "corrections.txt";
+  log_to_file(log);
   at.parts.correct_records(correction, T_base_sensor, false);
   expect_moved(at.parts.scans_[0]);
   expect_moved(at.parts.scans_[1]);
@@ -130,7 +141,15 @@ TEST(MappingLoops, MoveAllRecordsAndWhatWasIntended) {
   EXPECT_EQ(at.table.robot.restarts, restarts + 1);
   for (std::size_t i = 0; i < 2; ++i) records[i]->T_world_base = {1.0, 0.25, 0.5};
   at.parts.correct_records(correction, T_base_sensor, true);
+  log_to_file({});
   for (const ScanRecord* record : records) expect_moved(*record);
+  const std::string said = read_file(log);
+  const std::string most = ": back at a place of before: poses corrected by up to {:.3f} m";
+  for (const std::string& line :
+       {fmt::format(fmt::runtime("after the last scan" + most), moved_m(2)),
+        fmt::format(fmt::runtime("scan 3" + most), moved_m(3))}) {
+    EXPECT_NE(said.find(line), std::string::npos) << line << "\n" << said;
+  }
   EXPECT_EQ(at.parts.current_.unobserved_cells, at.belief.grid().size());
 }
 

@@ -168,6 +168,8 @@ TEST_F(ScriptedFlight, GoesOnToTheTargetThatIsReachedSoonest) {
   };
   EXPECT_THAT(targets_of(3.0, 2.0), ElementsAre(2U, 2U, 2U, 2U));
   EXPECT_THAT(targets_of(2.0, 3.0), ElementsAre(1U, 1U, 1U, 1U));
+  robot_.duration_s = [](const Pose& /*place*/) { return 1.5; };
+  for (const BearingOption& option : offered(parts)) EXPECT_EQ(option.target, 1U) << "the first";
 }
 
 TEST_F(ScriptedFlight, AllTargetsCompeteAtOnceEachByItsOwnLastView) {

@@ -227,7 +227,9 @@ TEST_F(RecognitionAmongOthers, AnImageWithoutDepthShowsNothingOfItsTarget) {
   FlightObservation observation = flight.parts.observe();
   std::ranges::fill(observation.images.depth_m, 0.0F);
   flight.parts.update(observation);
+  testing::internal::CaptureStderr();
   flight.parts.record();
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("view 1: "));
   EXPECT_EQ(flight.parts.records().back().seen_share, 0.0);
 }
 

@@ -64,9 +64,12 @@ TEST_F(TabletopRobot, StartsBehindAPositionOfTheRing) {
 
 TEST_F(TabletopRobot, LiftsItsLaserToTheHeightOfTheViews) {
   const OwnScene scene(kTableAndWalls);
-  const ResolvedEpisode resolved = episode(scene, {"candidates.height_m=1.25"});
-  const SimulatedTabletopRobot robot(resolved.setup, std::get<Tabletop>(resolved.task));
+  const ResolvedEpisode resolved =
+      episode(scene, {"candidates.height_m=1.25", "laser.scan_duration_s=1"});
+  SimulatedTabletopRobot robot(resolved.setup, std::get<Tabletop>(resolved.task));
   EXPECT_NEAR(robot.estimated_sensor().translation().z(), 1.25, 5e-3);
+  robot.observe();
+  EXPECT_NEAR(robot.estimated_sensor().translation().z(), 1.25, 5e-3) << "it stays there";
 }
 
 /// 20 ticks of 25 ms to come to rest, then a line at both ends of each of 120 ticks.

@@ -350,5 +350,27 @@ TEST(ValidateScene, IsHeldToTheKeysThatWereSet) {
   EXPECT_THAT(small.notes, IsEmpty());
 }
 
+/// The corners of the base, but not its sides, are farther out than the post, 0.42 m from its
+/// middle.
+TEST(ValidateTableTop, TheRobotHasRoomToTurnAtItsStart) {
+  const OwnScene scene(kTable + kWalls +
+                       "<geom name='post' type='box' pos='1.32 .42 .5' size='.02 .02 .5'/>");
+  const Validation found = validated("tabletop", scene, {"robot.start_behind_m=0"});
+  EXPECT_EQ(found.code, ExitCode::usage);
+  EXPECT_THAT(problem(found),
+              AllOf(HasSubstr("robot.start_view 0 on the ring of candidates.radius_m 1.2, "
+                              "robot.start_behind_m 0: "),
+                    HasSubstr("would touch 'post' when it turns there")));
+}
+
+TEST(ValidateExploration, TheRobotHasRoomToTurnAtItsStart) {
+  const OwnScene scene(std::string(kWalls) +
+                       "<geom name='post' type='box' pos='0 .42 .5' size='.02 .02 .5'/>");
+  const Validation found = validated("office_small", scene, started_at("[0,0,0]"));
+  EXPECT_EQ(found.code, ExitCode::usage);
+  EXPECT_THAT(problem(found), AllOf(HasSubstr("robot.start_pose"),
+                                    HasSubstr("would touch 'post' when it turns there")));
+}
+
 }  // namespace
 }  // namespace vantage

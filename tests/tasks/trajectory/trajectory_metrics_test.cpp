@@ -13,6 +13,7 @@
 
 #include "tests/support/terminal.hpp"
 #include "tests/tasks/trajectory/noted_flight.hpp"
+#include "vantage/information/quantile.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/tasks/trajectory/flight_layout.hpp"
 
@@ -126,6 +127,37 @@ TEST(FlightMetrics, MeasureWhatTheyWereGiven) {
   EXPECT_EQ(metrics["tracking_error_m"]["mean"], 0.02);
   EXPECT_EQ(metrics["tracking_error_m"]["max"], 0.07);
   EXPECT_EQ(metrics["energy_j"], 432.0);
+}
+
+TEST(FlightMetrics, OfOneObjectAreItsOwn) {
+  NotedFlight flight;
+  flight.beliefs().found(5, {1.0, 1.0, 0.8});
+  const ObjectObservation seen = flight.look(5, {1.0, 1.0, 0.9});
+  const FlightTruth truth{{}, {{"mug_1", "mug", 0.0, {1.0, 1.2, 0.75}}}};
+  nlohmann::ordered_json metrics;
+  metrics["simulated_time_s"] = 0.0;
+  add_trajectory_metrics(truth, flight.parts, metrics);
+  EXPECT_EQ(metrics["accuracy"], 1.0);
+  EXPECT_EQ(metrics["mean_entropy_nats"], seen.entropy_nats);
+}
+
+TEST(FlightMetrics, HaveQuantilesOfTheTimesOfTheirPlans) {
+  NotedFlight flight;
+  flight.recorded();
+  std::vector<double> time_s;
+  for (int i = 0; i < 5; ++i) {
+    std::vector<CandidatePlan> plans = flight.parts.propose();
+    flight.parts.score(plans);
+    flight.parts.choose(plans);
+    flight.parts.act(plans.front());
+    time_s.push_back(flight.recorded().plan_time_s);
+  }
+  nlohmann::ordered_json metrics;
+  metrics["simulated_time_s"] = 0.0;
+  add_trajectory_metrics({{}, {}}, flight.parts, metrics);
+  EXPECT_EQ(metrics["replans"], 5);
+  EXPECT_EQ(metrics["plan_time_s"]["median"], quantile(time_s, 0.5));
+  EXPECT_EQ(metrics["plan_time_s"]["p95"], quantile(time_s, 0.95));
 }
 
 /// The row of the record that was told last.

@@ -3,14 +3,20 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
+#include <cmath>
 #include <numbers>
 #include <variant>
 
 #include "tests/tasks/trajectory/noted_flight.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/episode_loop.hpp"
+#include "vantage/runtime/episode_run.hpp"
+#include "vantage/runtime/log/video.hpp"
 #include "vantage/tasks/trajectory/trajectory_metrics.hpp"
+#include "vantage/tasks/trajectory/trajectory_panel.hpp"
 
 namespace vantage {
 namespace {
@@ -34,6 +40,7 @@ TEST(NotedFlights, RecordThePlanThatLedToAWaypoint) {
   NotedFlight flight;
   EXPECT_EQ(flight.recorded().planner, "") << "none has led to the first";
   flight.told.clear();
+  flight.robot.passed_now = 1;
   flight.parts.act(flight.aside(3));
   EXPECT_EQ(flight.robot.flown_on_s, flight.task.latency_s);
   std::vector<Eigen::Vector4d> plan = flight.parts.nominal();
@@ -102,6 +109,7 @@ TEST(NotedFlights, WeighAPlanAsItWillBeFlown) {
   for (const int missed : {0, 1}) {
     NotedFlight flight;
     flight.recorded();
+    flight.robot.passed_now = 1;
     flight.robot.passes = missed;
     std::vector<CandidatePlan> plans = flight.parts.propose();
     ASSERT_EQ(plans.front().points.cols(), 3);
@@ -220,6 +228,41 @@ TEST(NotedFlights, CountHowLongTheyPlan) {
       EXPECT_EQ(metrics["plan"][i][k], flight.parts.plan()[i][axis]) << i;
       EXPECT_EQ(metrics["path"][i][k], flight.parts.nominal()[i][axis]) << i;
     }
+  }
+}
+
+/// Beside what the camera on board sees, in the right half of the video.
+TEST(NotedFlights, ShowWhereTheyAreAndWhatTheyKnow) {
+  if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
+  NotedFlight flight([](TrajectoryFlight& task) { task.observations.range_m = 1.5; });
+  RunOptions options;
+  options.directory = flight.folder / "filmed";
+  options.lean = true;
+  options.video = true;
+  const RunRequest request{flight.episode.setup,         "trajectory", flight.task.method_name(),
+                           episode_yaml(flight.episode), {},           options};
+  const EpisodeRun run(request);
+  TrajectoryRecorder recorder(run, flight.hovering.quadrotor(), flight.task.camera);
+  TrajectoryParts parts({flight.episode.setup.options, flight.task, flight.recogniser, flight.robot,
+                         flight.evaluator, recorder},
+                        flight.path);
+  parts.update(parts.observe());
+  parts.record();
+  TrajectoryPanelInput expected{.observations = parts.observations(),
+                                .nominal = parts.nominal(),
+                                .plan = parts.plan(),
+                                .at = 0};
+  expected.T_world_body = flight.robot.estimated_body();
+  expected.method = flight.task.method_name();
+  expected.range_m = 1.5;
+  expected.half_width_rad = std::atan(std::tan(0.5 * flight.task.camera.fovy_rad) * 32.0 / 24.0);
+  const cv::Mat panel = draw_trajectory_panel(expected, {}, {640, 720});
+  const cv::Mat still = cv::imread((run.directory() / "frames/scan_01.png").string());
+  release_run_directory(run.directory());
+  ASSERT_EQ(still.size(), cv::Size(1280, 720));
+  const cv::Mat shown = still(cv::Rect(640, 0, 640, 720));
+  for (const cv::Rect& part : {cv::Rect(0, 0, 640, 36), cv::Rect(0, 330, 640, 390)}) {
+    EXPECT_EQ(cv::norm(shown(part), panel(part), cv::NORM_INF), 0.0) << part;
   }
 }
 

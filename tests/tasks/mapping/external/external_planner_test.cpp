@@ -16,7 +16,10 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/mapping/external/asked_planner.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/core/names.hpp"
+#include "vantage/core/rng.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/tasks/episode_planner.hpp"
 #include "vantage/tasks/mapping/external/planner_files.hpp"
@@ -305,6 +308,33 @@ TEST(ExternalPlanner, OfAnEpisodeIsThatOfItsChoice) {
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("choice.command: names no program"));
   }
+}
+
+TEST(ExternalPlanner, OfAnEpisodeIsToldWhatItChoosesFor) {
+  const support::TemporaryDirectory folder;
+  const fs::path told = folder / "hello.json";
+  ResolvedEpisode resolved;
+  resolved.setup.options.seed = 7;
+  Tabletop task;
+  task.scans = 6;
+  task.gain = SimpleGain{};
+  task.budget.time_s = 75.0;
+  task.budget.energy_j = 900.0;
+  task.choice = sh("read -r hello; printf '%s' \"$hello\" > '" + told.string() +
+                   R"('; echo '{"protocol": "vantage-planner", "version": 1, "name": "test"}'; )" +
+                   "read end");
+  resolved.task = task;
+  const auto planner = external_planner(resolved);
+  ASSERT_NE(planner, nullptr);
+  planner->greet();
+  const auto hello = nlohmann::json::parse(read_file(told));
+  EXPECT_EQ(hello["task"], "tabletop");
+  EXPECT_EQ(hello["seed"], Rng::stream(7, "external planner").next() >> 32U);
+  EXPECT_EQ(hello["scans"], 6);
+  EXPECT_EQ(hello["gain"], strategy_label(task.gain));
+  EXPECT_EQ(hello["gain_unit"], std::string(unit_of(task.gain)));
+  EXPECT_EQ(hello["time_s"], 75.0);
+  EXPECT_EQ(hello["energy_j"], 900.0);
 }
 
 TEST(ExternalPlanner, ThatIsNoProgramIsAnErrorOfTheConfiguration) {
