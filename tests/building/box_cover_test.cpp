@@ -176,5 +176,21 @@ TEST(BoxCover, WhatIsHeldAlreadyIsTakenInForASingleNewCell) {
   EXPECT_EQ(boxes[1].end, (std::array{2, 1, 1}));
 }
 
+/// Upwards from the second layer's first cell there is more below a row than there is new in it.
+TEST(BoxCover, WhatIsNewCountsNotHowLargeABoxIs) {
+  const FittedGrid grid = even_grid(3, 5, 2);
+  std::vector<std::uint8_t> solid(grid.size(), 0);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 3; ++x) solid[grid.index(x, y, 0)] = 1;
+  }
+  for (int x = 0; x < 3; ++x) solid[grid.index(x, 0, 1)] = 1;
+  for (int y = 0; y < 5; ++y) solid[grid.index(0, y, 1)] = 1;
+  const auto boxes = cover_with_boxes(grid, solid);
+  ASSERT_EQ(boxes.size(), 3U);
+  EXPECT_EQ(boxes[0].end, (std::array{3, 3, 1}));
+  EXPECT_EQ(boxes[1].first, (std::array{0, 0, 1})) << "five new cells, not three of six";
+  EXPECT_EQ(boxes[1].end, (std::array{1, 5, 2}));
+}
+
 }  // namespace
 }  // namespace vantage

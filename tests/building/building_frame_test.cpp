@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "tests/building/made_mesh.hpp"
 
@@ -124,6 +126,61 @@ TEST(FloorHeight, LevelsFiveCentimetresApartAreOneOrTwo) {
   near.level(0, 0, 1, 4, 0.20, true);
   near.level(1, 0, 2.2, 4, 0.24, true);
   EXPECT_NEAR(floor_height_m(near.mesh).value(), 0.24, 1e-9) << "the higher one is the wider";
+}
+
+/// A wall that leans by so much is one, or the heading is that of a smaller upright one.
+TEST(WallHeading, IsOfFacesThatLeanByATenthAtMost) {
+  for (const double lean : {0.08, 0.15}) {
+    MadeMesh made;
+    made.wall({0.0, 0.0}, 0.3, 1.0, 2.0);
+    // From (0, 0) along 0.7 rad for 4 m, 3 m high along its slope.
+    const Eigen::Vector3d along = 4.0 * Eigen::Vector3d(std::cos(0.7), std::sin(0.7), 0.0);
+    const Eigen::Vector3d out(std::sin(0.7), -std::cos(0.7), 0.0);
+    const Eigen::Vector3d rise =
+        3.0 * (std::sqrt(1.0 - lean * lean) * Eigen::Vector3d::UnitZ() - lean * out);
+    made.quad(Eigen::Vector3d::Zero(), along, along + rise, rise);
+    EXPECT_NEAR(wall_heading_rad(made.mesh), lean < 0.1 ? 0.7 : 0.3, 1e-9) << lean;
+  }
+}
+
+TEST(WallHeading, IsOfWallsUpToADegreeOffTheMiddleOfTheirHalfDegree) {
+  const auto rad = [](double deg) { return deg * std::numbers::pi / 180.0; };
+  EXPECT_NEAR(heading_of({{rad(20.25), 3.0}, {rad(21.2), 1.0}}), rad(20.4875), 1e-9);
+}
+
+TEST(WallHeading, AsGoodAsAlongTheAxesIsAlongThem) {
+  EXPECT_EQ(heading_of({{9e-6, 4.0}}), 0.0);
+  EXPECT_NEAR(heading_of({{1.1e-5, 4.0}}), 1.1e-5, 1e-9);
+  MadeMesh made;  // its normal is a hair below the x axis
+  made.wall({0.0, 0.0}, 0.5 * std::numbers::pi, 2.0, 2.0);
+  EXPECT_EQ(wall_heading_rad(made.mesh), 0.0);
+}
+
+TEST(FloorHeight, AMetreAndAHalfIsHeadroomEnough) {
+  MadeMesh made;
+  made.level(0, 0, 4, 3, 0.0, true);
+  made.level(0, 0, 4, 3, 1.5, true);
+  EXPECT_EQ(floor_height_m(made.mesh), 0.0);
+}
+
+/// Two strips of 6 and 9 cm side by side, 15 cm wide, are looked at in the middle of each step:
+/// of 10 cm in the first strip, of 15 cm in the second, of 30 cm nowhere.
+TEST(FloorHeight, IsLookedForInStepsOfAThousandthOfTheBuilding) {
+  const std::vector<std::pair<Eigen::Vector3d, double>> far_things{
+      {{1, 1, 1}, 0.2}, {{150, 1, 1}, 0.9}, {{1, 150, 1}, 0.9}, {{1, 1, 150}, 0.2}};
+  for (const auto& [size_m, floor_m] : far_things) {
+    MadeMesh made;
+    made.level(0.0, 0.0, 0.06, 0.15, 0.2, true);
+    made.level(0.06, 0.0, 0.15, 0.15, 0.9, true);
+    const Eigen::Vector3d corner = 0.15 * Eigen::Vector3d::Ones();
+    // An upright triangle from there, which no upright line meets.
+    made.triangle({corner.x(), corner.y(), 0}, {size_m.x(), size_m.y(), 0}, size_m);
+    EXPECT_NEAR(floor_height_m(made.mesh).value_or(-1.0), floor_m, 1e-9) << size_m.transpose();
+  }
+  MadeMesh small;
+  small.level(0.0, 0.0, 0.04, 0.1, 0.2, true);
+  small.level(0.04, 0.0, 0.1, 0.1, 0.9, true);
+  EXPECT_NEAR(floor_height_m(small.mesh).value_or(-1.0), 0.9, 1e-9) << "10 cm at least";
 }
 
 }  // namespace

@@ -362,5 +362,10 @@ TEST(BuildingScene, BoxesOfCellsHaveTheColourOfTheFloorOrOfWalls) {
   EXPECT_GT(walls, 0);
 }
 
+TEST(BuildingScene, PartsOfTheMeshThatFitLeaveCellsToBeMadeLarger) {
+  EXPECT_THAT(refusal<ConfigError>(hall_with_oblique_walls(), {.max_geoms = 3}),
+              HasSubstr("--cell 0.1"));
+}
+
 }  // namespace
 }  // namespace vantage

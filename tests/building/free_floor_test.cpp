@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace vantage {
 namespace {
@@ -218,6 +220,102 @@ TEST(FreeFloor, IsNoneWhereTheGridEndsAtIt) {
   grid.lines_m = {std::vector<double>{0.0, 5.0}, {0.0, 5.0}, {0.0, 1.0, 1.7, 2.5}};
   const std::vector<std::uint8_t> air(grid.size(), 0);
   EXPECT_FALSE(find_free_floor(grid, air, kNarrow));
+}
+
+/// So many squares of 5 cm by so many, of which those that are drawn as blanks have a floor and are
+/// free.
+WalledRoom drawn_squares(const std::vector<std::string>& rows) {
+  const auto lines = [](std::size_t count) {
+    std::vector<double> lines_m;
+    for (std::size_t i = 0; i <= count; ++i) lines_m.push_back(0.05 * static_cast<double>(i));
+    return lines_m;
+  };
+  WalledRoom room(lines(rows[0].size()), lines(rows.size()));
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    for (std::size_t x = 0; x < rows[0].size(); ++x) {
+      room.fill(static_cast<int>(x), static_cast<int>(y), 1, rows[y][x] != ' ');
+    }
+  }
+  return room;
+}
+
+/// Each step of a way between squares, to every side, is one square long.
+TEST(FreeFloor, GoesFromSquareToSquare) {
+  const WalledRoom room = drawn_squares({"#########",  //
+                                         "#### #  #",  //
+                                         "####  # #",  //
+                                         "#####   #",  //
+                                         "##### ###",  //
+                                         "#########"});
+  const auto floor = find_free_floor(room.grid, room.solid, {.clearance_m = 0.0});
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->area_m2, 10 * 0.0025, 1e-9);
+}
+
+/// All 4 by 3 squares are free, up to the edges of the grid.
+TEST(FreeFloor, ReachesToTheEdgesOfTheGrid) {
+  const WalledRoom room = drawn_squares({"    ", "    ", "    "});
+  const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->area_m2, 12 * 0.0025, 1e-9);
+}
+
+/// Squares count by their middles: 81 by 41 of them, as where the walls end half a square on.
+TEST(FreeFloor, IsOfSquaresWhoseMiddlesAreFree) {
+  const WalledRoom room({-1.0, -0.48, 3.53, 4.05}, {2.0, 2.52, 4.53, 5.05});
+  const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->area_m2, 57 * 17 * 0.0025, 1e-9);
+  EXPECT_NEAR(floor->start.x_m, 1.525, 1e-9);
+  EXPECT_NEAR(floor->start.y_m, 3.525, 1e-9);
+}
+
+/// A room of 41 by 41 squares with a niche of 10 in the middle of one of its walls.
+TEST(FreeFloor, LooksWhereTheWayIsFreeForLongest) {
+  const std::vector<double> niche_first_m{0.0, 0.5, 1.0, 3.05, 3.55};
+  const std::vector<double> niche_last_m{0.0, 0.5, 2.55, 3.05, 3.55};
+  const std::vector<double> across_m{0.0, 0.5, 1.5, 1.55, 2.55, 3.05};
+  for (const bool along_y : {false, true}) {
+    for (const bool first : {true, false}) {
+      const auto& along_m = first ? niche_first_m : niche_last_m;
+      WalledRoom room(along_y ? across_m : along_m, along_y ? along_m : across_m);
+      const int niche = first ? 1 : 2;
+      for (const int across : {1, 3}) {
+        room.fill(along_y ? across : niche, along_y ? niche : across, 1);
+      }
+      const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+      ASSERT_TRUE(floor);
+      const double heading_rad =
+          (along_y ? 0.5 : 0.0) * std::numbers::pi + (first ? std::numbers::pi : 0.0);
+      EXPECT_NEAR(std::cos(floor->start.yaw_rad - heading_rad), 1.0, 1e-9) << along_y << first;
+      EXPECT_LE(std::abs(floor->start.yaw_rad), std::numbers::pi + 1e-9);
+    }
+  }
+}
+
+/// Ground of 10 x 10 m, of which 4 x 4 m count as what stands there, outdoors for want of walls.
+TEST(FreeFloor, OutdoorsBeginsWithinWhatStands) {
+  const WalledRoom ground({0.0, 0.5, 9.5, 10.0}, {0.0, 0.5, 9.5, 10.0});
+  FreeFloorOptions options = kNarrow;
+  options.standing_m = {Eigen::Vector2d(1.5, 1.5), Eigen::Vector2d(5.5, 5.5)};
+  const auto floor = find_free_floor(ground.grid, ground.solid, options);
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->area_m2, 16.0, 0.5);
+  EXPECT_LT(floor->start.x_m, 5.5);
+  EXPECT_LT(floor->start.y_m, 5.5);
+}
+
+TEST(FreeFloor, WithoutAStartHasNoClearance) {
+  const WalledRoom room({0.0, 0.5, 4.55, 5.05}, {0.0, 0.5, 2.55, 3.05});
+  EXPECT_EQ(find_free_floor(room.grid, room.solid, {.clearance_m = 1.02})->clearance_m, 0.0);
+}
+
+/// 50 squares, and 100 beside them.
+TEST(FreeFloor, IsTheLargerOfSmallAreasToo) {
+  const WalledRoom room = drawn_squares(std::vector<std::string>(10, "     #          "));
+  const auto floor = find_free_floor(room.grid, room.solid, {.clearance_m = 0.0});
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->area_m2, 100 * 0.0025, 1e-9);
 }
 
 }  // namespace

@@ -210,5 +210,31 @@ TEST_F(MeshFile, NodesStandInTheFrameOfTheirParents) {
   EXPECT_NEAR(mesh.normal(mesh.triangles[0]).z(), 8.0, 1e-4);
 }
 
+TEST_F(MeshFile, MayReachEightKilometres) {
+  EXPECT_EQ(read("a.obj", "v 0 8000 0\nv 1 7999 0\nv 0 7998 0\nf 1 2 3\n").triangles.size(), 1U);
+}
+
+TEST_F(MeshFile, FacesOfSmallUnitsFaceAsTheyDid) {
+  const std::string triangle = "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nf 1 2 3\n";
+  const BuildingMesh mesh = read("a.obj", triangle, {.scale = 0.001});
+  ASSERT_EQ(mesh.triangles.size(), 1U);
+  EXPECT_NEAR(mesh.normal(mesh.triangles[0]).z(), 1.0, 1e-6);
+}
+
+TEST_F(MeshFile, AMaterialMayHaveANameOfOneLetter) {
+  write_file(folder_ / "m.mtl", "newmtl r\nKd 0.75 0.125 0.25\n");
+  const BuildingMesh red =
+      read("a.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl r\nf 1 2 3\n");
+  EXPECT_LT((red.colours.at(0) - Eigen::Vector3f(0.75F, 0.125F, 0.25F)).norm(), 1e-5F);
+}
+
+/// Its first number is infinity.
+TEST_F(MeshFile, AVertexThatIsNowhereIsRefused) {
+  std::string gltf = kGltf;
+  const std::string numbers = "base64,AAAAAAAA";
+  gltf.replace(gltf.find(numbers), numbers.size(), "base64,AACAfwAA");
+  EXPECT_THAT(refusal("m.gltf", gltf), HasSubstr("m.gltf: a vertex is not finite"));
+}
+
 }  // namespace
 }  // namespace vantage

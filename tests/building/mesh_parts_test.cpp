@@ -193,5 +193,56 @@ TEST(MeshParts, BoxesThatLeanALittleHaveSquareAxesAllTheSame) {
   EXPECT_LT((R.col(0) - first).norm(), 1e-12);
 }
 
+/// Two roofs over one ridge, each of two faces that hang together there alone.
+TEST(MeshParts, HangTogetherByAnEdgeThatOthersHaveToo) {
+  BuildingMesh mesh;
+  mesh.vertices_m = {{0, 0, 2},  {3, 0, 2}, {0, -1, 1}, {3, -1, 1},
+                     {0, -2, 1}, {0, 1, 1}, {0, 2, 1},  {3, 2, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 1, 4}, {1, 0, 5}, {1, 0, 6}};
+  mesh.objects = {0, 1, 0, 1};
+  mesh.colours.assign(4, Eigen::Vector3f::Zero());
+  EXPECT_EQ(mesh_parts(mesh).size(), 2U);
+  mesh.triangles.pop_back();
+  mesh.objects.pop_back();
+  mesh.colours.pop_back();
+  EXPECT_EQ(mesh_parts(mesh).size(), 2U) << "and one of a face alone";
+}
+
+TEST(MeshParts, ThatAreTurnedFaceOutwards) {
+  test::DrawnBuilding cupboard;
+  cupboard.box({0, 0, 0}, {2, 0.6, 2});
+  BuildingMesh mesh = mesh_of(cupboard);
+  turn_inside_out(mesh);
+  const auto parts = mesh_parts(mesh);
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_TRUE(is_convex(mesh, parts[0]));
+  OrientedBox box;
+  EXPECT_TRUE(is_box(mesh, parts[0], box));
+}
+
+/// None of whose axes is near one of the mesh's; two are nearest to the same one.
+TEST(MeshParts, AreBoxesHoweverTheyLean) {
+  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ()) *
+                                Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()))
+                                   .toRotationMatrix();
+  const Eigen::Vector3d u = turn * Eigen::Vector3d(2, 2, 1) / 3.0;
+  const Eigen::Vector3d v = turn * Eigen::Vector3d(1, -2, 2) / 3.0;
+  const Eigen::Vector3d w = turn * Eigen::Vector3d(2, -1, -2) / 3.0;
+  BuildingMesh mesh;
+  mesh.vertices_m = {Eigen::Vector3d::Zero(), 3.0 * u, v, 2.0 * w};
+  OrientedBox box;
+  ASSERT_TRUE(is_box(mesh, solid_of({{0, 2, 3}, {0, 3, 1}, {0, 1, 2}}), box));
+  EXPECT_NEAR(box.half_m.prod(), 1.5 * 0.5 * 1.0, 1e-12);
+  EXPECT_LT((box.T_mesh_box.translation() - (1.5 * u + 0.5 * v + w)).norm(), 1e-12);
+  const Eigen::Matrix3d R = box.T_mesh_box.linear();
+  EXPECT_TRUE((R.transpose() * R).isIdentity(1e-12));
+}
+
+TEST(MeshParts, ThatAreOpenHaveNoVolume) {
+  test::DrawnBuilding building;
+  building.face({{0, 0, 0}, {1, 0, 0}, {1, 0, 2}, {0, 0, 2}});
+  EXPECT_EQ(mesh_parts(mesh_of(building)).at(0).volume_m3, 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

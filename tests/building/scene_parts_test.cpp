@@ -159,5 +159,70 @@ TEST(SceneParts, RefusalsSayTheNumbersThatMatter) {
             "made: nothing stands on the floor at 100 m (--floor), below 3 m (--height)");
 }
 
+TEST(SceneParts, ThatOnlyTouchTheLimitsAreLeftOut) {
+  MadeMesh made;
+  made.box({0, 0, -0.1}, {8, 6, 0});
+  made.box({1, 1, 0}, {2, 2, 1});
+  made.box({3, 1, 3.0}, {4, 2, 3.4});
+  made.box({5, 1, -0.6}, {6, 2, -0.3});
+  EXPECT_EQ(scene_made_of(made, {.floor_m = 0.0}).boxes.size(), 2U);
+}
+
+TEST(SceneParts, KeepTheirOwnColourEvenIfItIsBlack) {
+  MadeMesh made;
+  made.box({0, 0, -0.1}, {8, 6, 0});
+  made.box({1, 1, 0}, {2, 2, 1});
+  BuildingMesh mesh = joined_mesh(made);
+  for (std::size_t i = 12; i < 24; ++i) mesh.colours[i] = Eigen::Vector3f::Zero();
+  const BuildingScene scene = make_building_scene(mesh, {}, "made", [](std::string_view) {});
+  ASSERT_EQ(scene.boxes.size(), 2U);
+  expect_colour(scene.boxes[1], {0.0F, 0.0F, 0.0F});
+}
+
+/// The floor, something of three sides, and what has its colour in turn after both.
+TEST(SceneParts, HaveColoursInTurnWhateverTheirShape) {
+  MadeMesh made;
+  made.box({0, 0, -0.1}, {8, 6, 0});
+  BuildingMesh mesh = joined_mesh(made);
+  const int first = static_cast<int>(mesh.vertices_m.size());
+  for (const auto& p_m : {Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(2, 1, 0),
+                          Eigen::Vector3d(1, 2, 0), Eigen::Vector3d(1, 1, 1)}) {
+    mesh.vertices_m.push_back(p_m);
+  }
+  for (const Triangle& t : {Triangle{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    mesh.colours.emplace_back(-1.0F, -1.0F, -1.0F);
+    mesh.objects.push_back(1);
+  }
+  MadeMesh cupboard;
+  cupboard.box({5, 1, 0}, {6, 2, 1.5});
+  const BuildingMesh more = joined_mesh(cupboard);
+  const int next = static_cast<int>(mesh.vertices_m.size());
+  mesh.vertices_m.insert(mesh.vertices_m.end(), more.vertices_m.begin(), more.vertices_m.end());
+  for (const Triangle& t : more.triangles) {
+    mesh.triangles.push_back({next + t[0], next + t[1], next + t[2]});
+    mesh.colours.emplace_back(-1.0F, -1.0F, -1.0F);
+    mesh.objects.push_back(2);
+  }
+  const BuildingScene scene = make_building_scene(mesh, {}, "made", [](std::string_view) {});
+  ASSERT_EQ(scene.hulls.size(), 1U);
+  ASSERT_EQ(scene.boxes.size(), 2U);
+  EXPECT_LT((scene.hulls[0].colour - Eigen::Vector3f(0.42F, 0.50F, 0.56F)).norm(), 1e-5F);
+  expect_colour(scene.boxes[1], {0.55F, 0.58F, 0.45F});
+}
+
+/// A floor is laid, and all that there is hangs above what counts.
+TEST(SceneParts, ALaidFloorAloneIsNoScene) {
+  MadeMesh made;
+  made.box({0, 0, 5}, {1, 1, 6});
+  made.box({7, 5, 5}, {8, 6, 6});
+  try {
+    scene_made_of(made, {.floor_m = 0.0});
+    ADD_FAILURE() << "there is nothing";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("made: nothing stands on the floor"), 0U);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "tests/building/made_mesh.hpp"
 #include "vantage/building/line_crossings.hpp"
@@ -245,6 +247,164 @@ TEST(SolidCells, OfASheetInTheFirstLayerAreThatLayerAndNoneOfOneBelowIt) {
   };
   expect_solid(grid, filled(0.07), {2, 2, 0}, {8, 6, 1});
   expect_solid(grid, filled(-0.2), {0, 0, 0}, {0, 0, 0});
+}
+
+/// Whose middle corner lies at the height of a line.
+TEST(LineCrossings, AreOneBesideACornerToo) {
+  MadeMesh made;
+  made.triangle({0, 0, 1}, {4, 2, 1}, {0, 4, 1});
+  const auto found =
+      line_crossings(made.mesh, made.mesh.triangles, 2, {0.0, 1.5, 2.5}, {1.0, 2.0, 3.0});
+  std::vector<std::uint32_t> lines;
+  for (const Crossing& crossing : found) lines.push_back(crossing.line);
+  EXPECT_EQ(lines, (std::vector<std::uint32_t>{0, 1, 3, 4, 5, 6, 7}));
+}
+
+TEST(LineCrossings, OfATriangleOfHalfASquareMetreAreThereToo) {
+  MadeMesh made;
+  made.triangle({0, 0, 1}, {1, 0, 1}, {0, 1, 1});
+  EXPECT_EQ(line_crossings(made.mesh, made.mesh.triangles, 2, {0.25}, {0.25}).size(), 1U);
+}
+
+TEST(SolidCells, OfASheetAtTheEdgeOfTheGridAreThoseInIt) {
+  const FittedGrid grid = tenths(0.0);
+  const auto filled = [&](double z_m, bool up) {
+    MadeMesh made;
+    made.level(0.2, 0.2, 0.8, 0.6, z_m, up);
+    return solid_cells(made.mesh, made.mesh.triangles, grid);
+  };
+  for (const bool up : {true, false}) {
+    expect_solid(grid, filled(grid.line_m(2, 10), up), {2, 2, 9}, {8, 6, 10});
+    expect_solid(grid, filled(0.0, up), {2, 2, 0}, {8, 6, 1});
+  }
+  expect_solid(grid, filled(0.392, false), {2, 2, 4}, {8, 6, 5});
+  expect_solid(grid, filled(0.392, true), {2, 2, 3}, {8, 6, 4});
+}
+
+/// Slabs that end in a cell, of which less than half is theirs.
+TEST(SolidCells, OfWhatHasSolidCellsBehindItsSurfaceAreNoMore) {
+  const FittedGrid grid = tenths(0.0);
+  MadeMesh low;
+  low.box({0.2, 0.2, 0.0}, {0.8, 0.6, 0.12});
+  expect_solid(grid, solid_cells(low.mesh, low.mesh.triangles, grid), {2, 2, 0}, {8, 6, 1});
+  MadeMesh high;
+  high.box({0.2, 0.2, 0.88}, {0.8, 0.6, grid.line_m(2, 10)});
+  expect_solid(grid, solid_cells(high.mesh, high.mesh.triangles, grid), {2, 2, 9}, {8, 6, 10});
+  MadeMesh covered;  // by a sheet that faces down
+  covered.box({0.2, 0.2, 0.1}, {0.8, 0.6, 0.5});
+  covered.level(0.2, 0.2, 0.8, 0.6, 0.5, false);
+  expect_solid(grid, solid_cells(covered.mesh, covered.mesh.triangles, grid), {2, 2, 1}, {8, 6, 5});
+}
+
+TEST(SolidCells, OfAFloorOnASlabAreThoseOfTheSlab) {
+  FittedGrid grid = tenths(-0.3);
+  grid.lines_m[2][3] = 0.0;
+  MadeMesh made;
+  made.box({-0.1, -0.1, grid.line_m(2, 1)}, {0.5, 0.3, 0.0});
+  made.level(-0.1, -0.1, 0.5, 0.3, 0.02, true);
+  expect_solid(grid, solid_cells(made.mesh, made.mesh.triangles, grid), {2, 2, 1}, {8, 6, 3});
+  FittedGrid shallow = tenths(-0.1);
+  shallow.lines_m[2][1] = 0.0;
+  MadeMesh sheet;
+  sheet.level(0.1, 0.1, 0.7, 0.5, 0.03, true);
+  const auto filled = solid_cells(sheet.mesh, sheet.mesh.triangles, shallow);
+  expect_solid(shallow, filled, {2, 2, 0}, {8, 6, 1});
+}
+
+/// Faces in the middles of cells: of the first cell the middle is inside, of the last it is not.
+TEST(SolidCells, HoldTheMiddlesFromAFaceUpToTheOther) {
+  FittedGrid grid;
+  grid.cell_m = 0.125;
+  for (auto& lines : grid.lines_m) {
+    for (int i = 0; i <= 8; ++i) lines.push_back(0.125 * i);
+  }
+  MadeMesh made;
+  made.box({0.1875, 0.1875, 0.1875}, {0.8125, 0.6875, 0.5625});
+  expect_solid(grid, solid_cells(made.mesh, made.mesh.triangles, grid), {1, 1, 1}, {6, 5, 4});
+}
+
+/// Lines that enter twice and never leave tell nothing of what is between.
+TEST(SolidCells, AreNoneBetweenSheetsThatFaceOneWay) {
+  const FittedGrid grid = tenths(0.0);
+  MadeMesh made;
+  for (const double at_m : {0.1, 0.8}) {
+    made.quad({at_m, 0.1, 0.1}, {at_m, 0.1, 0.9}, {at_m, 0.9, 0.9}, {at_m, 0.9, 0.1});
+    made.quad({0.1, at_m, 0.1}, {0.9, at_m, 0.1}, {0.9, at_m, 0.9}, {0.1, at_m, 0.9});
+  }
+  const auto solid = solid_cells(made.mesh, made.mesh.triangles, grid);
+  EXPECT_EQ(solid[grid.index(1, 4, 4)], 1) << "behind a sheet";
+  EXPECT_EQ(solid[grid.index(4, 1, 4)], 1);
+  EXPECT_EQ(solid[grid.index(4, 4, 4)], 0);
+}
+
+/// Two troughs without tops, one behind the other.
+TEST(SolidCells, AreInTheSecondOfTwoToo) {
+  const FittedGrid grid = tenths(0.0);
+  MadeMesh made;
+  made.box({0.1, 0.2, 0.1}, {0.3, 0.7, 0.5}, false);
+  made.box({0.4, 0.2, 0.1}, {0.9, 0.7, 0.5}, false);
+  const auto solid = solid_cells(made.mesh, made.mesh.triangles, grid);
+  EXPECT_EQ(solid[grid.index(6, 4, 3)], 1);
+  EXPECT_EQ(solid[grid.index(3, 4, 3)], 0);
+}
+
+TEST(FittedGrid, HasOneLineWhicheverOfTwoNearFacesIsTheLarger) {
+  for (const bool near : {true, false}) {
+    MadeMesh made;
+    const double other_m = near ? 0.426 : 0.424;
+    made.wall_x(other_m, 0.0, 0.5, 0.5);
+    made.wall_x(0.43, 0.0, 1.0, 1.0);
+    const auto x_m = fit_grid(made.mesh, kUnitBox, 0.05).lines_m[0];
+    EXPECT_TRUE(has_line(x_m, 0.43)) << "of the larger one";
+    EXPECT_EQ(has_line(x_m, other_m), !near);
+    EXPECT_FALSE(has_line(x_m, 0.427)) << "what is less than a cell is not parted";
+  }
+}
+
+/// Halves of 0.0016 m^2, too small each.
+TEST(FittedGrid, FacesInOnePlaneCountTogether) {
+  for (const double apart_m : {0.00007, 0.00015}) {
+    MadeMesh made;
+    made.wall_x(0.33, 0.0, 0.04, 0.04);
+    made.wall_x(0.33 + apart_m, 0.5, 0.54, 0.04);
+    const auto x_m = fit_grid(made.mesh, kUnitBox, 0.05).lines_m[0];
+    EXPECT_EQ(has_line(x_m, 0.33), apart_m < 0.0001) << apart_m;
+  }
+}
+
+TEST(FittedGrid, FacesAreSquareWithinAThousandthOrSo) {
+  for (const double tilt : {0.0012, 0.0018}) {
+    MadeMesh made;
+    made.triangle({0.33, 0, 0}, {0.33, 1, 0}, {0.33 + tilt, 0, 1});
+    const auto x_m = fit_grid(made.mesh, kUnitBox, 0.05).lines_m[0];
+    EXPECT_EQ(has_line(x_m, 0.33 + tilt / 3.0), tilt < 0.0014) << tilt;
+  }
+}
+
+TEST(FittedGrid, HasLinesOfFacesAtTheSidesOfItsBoxAndWithinIt) {
+  MadeMesh made;
+  made.wall_x(1.5, 0.0, 1.0, 1.0);  // the largest is beyond
+  made.wall_x(0.03125, 0.0, 0.9, 0.9);
+  made.wall_x(0.96875, 0.0, 0.8, 0.8);
+  const Eigen::AlignedBox3d box_m(Eigen::Vector3d(0.03125, 0, 0), Eigen::Vector3d(0.96875, 1, 1));
+  const auto x_m = fit_grid(made.mesh, box_m, 0.05).lines_m[0];
+  EXPECT_TRUE(has_line(x_m, 0.03125));
+  EXPECT_TRUE(has_line(x_m, 0.96875));
+  EXPECT_NEAR(x_m.front(), 0.03125 - 0.05, 1e-9);
+}
+
+/// Of boxes that hold it, or within a cell of which it lies.
+TEST(FittedGrid, HasTheFloorAsALineWhereItReachesBothSidesOfIt) {
+  const auto upright_m = [](double low_m, double high_m) {
+    const Eigen::AlignedBox3d box_m(Eigen::Vector3d(0, 0, low_m), Eigen::Vector3d(1, 1, high_m));
+    return fit_grid(BuildingMesh{}, box_m, 0.05).lines_m[2];
+  };
+  EXPECT_TRUE(has_line(upright_m(0.0, 0.98), 0.0));
+  EXPECT_TRUE(has_line(upright_m(-0.12, 0.3), 0.0));
+  EXPECT_NEAR(upright_m(0.02, 0.98).front(), -0.05, 1e-9);
+  EXPECT_EQ(upright_m(0.05, 0.98).front(), 0.0) << "it is where the grid begins";
+  EXPECT_NEAR(upright_m(0.5, 0.98).front(), 0.45, 1e-9);
+  EXPECT_EQ(upright_m(-0.98, -0.05).back(), 0.0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Where captions cover an image.
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -195,6 +196,91 @@ TEST(ViewCaptionsOnAnImage, TheHelpHasALineForEachKey) {
     EXPECT_TRUE(is_written({276, y - 13, 400, 17})) << y;
     EXPECT_FALSE(is_written({21, y - 13, 14, 17})) << y;
     EXPECT_FALSE(is_written({21, y + 7, 740, 3})) << y;
+  }
+}
+
+const Pixel kDarkened(68, 62, 58);  // of grey
+
+/// Of a decision between two views.
+ViewCaptions legend_of_two() {
+  ViewCaptions captions;
+  captions.decision.emplace();
+  captions.decision->candidates.resize(2);
+  for (Candidate& view : captions.decision->candidates) view.reachable = true;
+  captions.decision->candidates[0].gain_bits = 10.0;
+  captions.decision->candidates[1].gain_bits = 20.0;
+  captions.gain_unit = "cells";
+  return captions;
+}
+
+TEST(ViewCaptionsOnAnImage, TheLegendIsThereForASingleViewToo) {
+  ViewCaptions captions = legend_of_two();
+  captions.decision->candidates.pop_back();
+  EXPECT_EQ(changed_rows(captioned(captions), 999), std::pair(720 - 58, 720));
+}
+
+TEST(ViewCaptionsOnAnImage, TheLegendsBarIsTwelvePixelsHighAndColouredByShare) {
+  const cv::Mat image = captioned(legend_of_two());
+  const int quarter = 684 + 75;  // of 302 columns
+  EXPECT_EQ(image.at<Pixel>(673, quarter), kDarkened);
+  EXPECT_NE(image.at<Pixel>(674, quarter), kDarkened);
+  EXPECT_NE(image.at<Pixel>(686, quarter), kDarkened);
+  EXPECT_EQ(image.at<Pixel>(687, quarter), kDarkened);
+  // From the second of its six colours, (202, 165, 42), a quarter on to (150, 200, 70).
+  const Pixel colour = image.at<Pixel>(680, quarter);
+  EXPECT_NEAR(colour[0], 189, 3);
+  EXPECT_NEAR(colour[1], 174, 3);
+  EXPECT_NEAR(colour[2], 49, 3);
+}
+
+/// What is written between two columns, below the bar.
+cv::Rect written_below_bar(const cv::Mat& image, int from, int to) {
+  const cv::Rect area(from, 688, to - from, 720 - 688);
+  cv::Mat ground;
+  cv::inRange(image(area), cv::Scalar(68, 62, 58), cv::Scalar(68, 62, 58), ground);
+  const cv::Rect found = cv::boundingRect(255 - ground);
+  return {found.x + area.x, found.y + area.y, found.width, found.height};
+}
+
+/// The least at its left end, the most at its right one and what they are of in its middle; the
+/// feet of the letters 20 px below it, capitals 13 px high.
+TEST(ViewCaptionsOnAnImage, TheLegendsWordsStandBelowItsBar) {
+  const cv::Mat image = captioned(legend_of_two());
+  const cv::Rect least = written_below_bar(image, 671, 745);
+  const cv::Rect unit = written_below_bar(image, 755, 915);
+  const cv::Rect most = written_below_bar(image, 925, 999);
+  EXPECT_NEAR(least.x, 686, 3);
+  EXPECT_NEAR(unit.x + 0.5 * unit.width, 835.0, 3.0);
+  EXPECT_NEAR(most.x + most.width, 985, 3);
+  for (const cv::Rect& words : {least, most}) {
+    EXPECT_NEAR(words.y, 693, 2);
+    EXPECT_NEAR(words.y + words.height, 707, 2);
+  }
+  EXPECT_NEAR(unit.y, 693, 2);
+}
+
+TEST(ViewCaptionsOnAnImage, HeadlinesAreAsWideAsTheirWords) {
+  ViewCaptions captions;
+  captions.scene = "HHH";
+  const int words = cv::getTextSize("HHH", cv::FONT_HERSHEY_SIMPLEX, 30.0 / 22.0, 2, nullptr).width;
+  const cv::Mat image = captioned(captions, {2000, 1440});
+  EXPECT_EQ(changed_columns(image, 0).second, words + 2 * 24);
+}
+
+/// Keys from column 36 on and what they do from 276 on, in letters of 14 px.
+TEST(ViewCaptionsOnAnImage, TheHelpHasTwoColumns) {
+  ViewCaptions captions;
+  captions.help = true;
+  const cv::Mat image = captioned(captions);
+  const auto is_written = [&](const cv::Rect& part) {
+    cv::Mat ground;
+    cv::inRange(image(part), cv::Scalar(68, 62, 58), cv::Scalar(68, 62, 58), ground);
+    return cv::countNonZero(ground) < part.area();
+  };
+  for (const int column : {36, 276}) {
+    EXPECT_TRUE(is_written({column, 70, 10, 350})) << column;
+    EXPECT_TRUE(is_written({column, 94, 150, 5})) << column << ": letters of full height";
+    EXPECT_FALSE(is_written({column, 57, 150, 9})) << column;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "vantage/view/orbit_camera.hpp"
 #include "vantage/view/painter.hpp"
+#include "vantage/view/view.hpp"
 
 namespace vantage {
 namespace {
@@ -192,6 +193,28 @@ TEST_F(ViewInputTest, TheRightButtonPansTheCameraInUse) {
   controls.camera = ViewCamera::follow;
   input(MouseDragged{MouseButton::middle, {0, 0}, {60.0, 30.0}});
   EXPECT_LT((controls.follow.lookat_m - expected.lookat_m).norm(), 1e-12);
+}
+
+TEST_F(ViewInputTest, TheTimelineEndsWhereItIsSeenToEnd) {
+  controls.duration_s = 20.0;
+  input(MousePressed{MouseButton::left, {0.0, 599.0}});
+  EXPECT_EQ(seek(), 0.0);
+  input(MouseDragged{MouseButton::left, {5000.0, 300.0}, {1.0, 0.0}});
+  EXPECT_EQ(seek(), 20.0 + 0.025) << "no farther than its right end";
+  controls.size = {900, 720};
+  input(MousePressed{MouseButton::left, {899.0, 703.0}});
+  EXPECT_FALSE(seek());
+  input(MousePressed{MouseButton::left, {899.0, 704.0}});
+  EXPECT_EQ(seek(), 20.0 + 0.025) << "its upper edge";
+}
+
+TEST(ViewOptions, ShowAnEpisodeWithNothingLaidOverIt) {
+  const ViewOptions options;
+  EXPECT_EQ(options.size, (PixelSize{1280, 720}));
+  EXPECT_EQ(options.camera, ViewCamera::overview);
+  EXPECT_FALSE(options.map || options.gains || options.at_s);
+  EXPECT_EQ(ViewMoment{}.events, 0U);
+  EXPECT_EQ(ViewFrame{}.time_s, 0.0);
 }
 
 }  // namespace

@@ -198,5 +198,64 @@ TEST(MapOnAnImage, ReachesToAllEdges) {
   }
 }
 
+TEST(ViewsOnAnImage, OfOneGainHasTheColourOfTheBest) {
+  const Decision decision{.candidates = {view_at(0.0, 5.0)}, .chosen = 1};
+  const MapCanvas canvas = laid(known_after({{1, decision}}));
+  expect_near(on_edge(canvas, 0.0, 65), 0.95 * cv::Scalar(90.0, 110.0, 250.0));
+}
+
+TEST(ViewsOnAnImage, AreRangedWithoutThoseOutOfReachBeforeThem) {
+  const Decision decision{
+      .candidates = {view_at(0.6, 100.0, false), view_at(0.3, 10.0), view_at(0.0, 30.0)},
+      .chosen = 3};
+  const MapCanvas canvas = laid(known_after({{1, decision}}));
+  expect_near(on_edge(canvas, 0.3, 65), 0.95 * cv::Scalar(184.0, 92.0, 58.0));
+  expect_near(on_edge(canvas, 0.0, 65), 0.95 * cv::Scalar(90.0, 110.0, 250.0));
+}
+
+TEST(ViewsOnAnImage, TheWayIsWhereItIsSeenFromAbove) {
+  MapCamera camera = far_camera();
+  camera.T_camera_world.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  MapCanvas canvas = make_canvas({500, 720});
+  lay_views(canvas, camera,
+            known_after({{1, Decision{}}, {1, PlannedRoute{{{0.2, 0.1}, {0.4, 0.1}}}}}));
+  expect_near(canvas.bgr.at<cv::Vec3b>(kMiddle - 50, 250), 0.95 * cv::Scalar(60.0, 190.0, 255.0));
+}
+
+TEST(ViewsOnAnImage, HaveLinesTwiceAsWideOnAnImageTwiceAsHigh) {
+  const Decision decision = *known_with_views().decision();
+  PlannedTour tour;
+  for (const double x_m : {0.3, 0.5, 0.7}) tour.stops.push_back({.place_m = {x_m, -0.9}});
+  const auto laid_high = [](const std::vector<EpisodeEvent>& events) {
+    MapCanvas canvas = make_canvas({500, 1440});
+    lay_views(canvas, far_camera(), known_after(events));
+    return canvas;
+  };
+  const MapCanvas canvas = laid_high({{1, decision}, {1, PlannedRoute{{{0.5, 0.0}, {0.7, 0.0}}}}});
+  for (const int beside : {-1, 1}) {
+    expect_near(on_edge(canvas, 0.6, 65, beside), 0.95 * cv::Scalar(184.0, 92.0, 58.0));
+    EXPECT_EQ(on_edge(canvas, 0.0, 164, 2 * beside), cv::Vec3b(255, 255, 255)) << beside;
+    const cv::Vec3b on_way = canvas.bgr.at<cv::Vec3b>(kMiddle - 15 + 3 * beside, 400);
+    expect_near(on_way, 0.95 * cv::Scalar(60.0, 190.0, 255.0));
+  }
+  MapCanvas expected = laid_high({{1, decision}});
+  draw_tour(expected, far_camera(), tour, {.z_m = 0.03, .number = 2, .unit = 2.6});
+  const MapCanvas planned = laid_high({{1, decision}, {1, tour}});
+  EXPECT_EQ(cv::norm(planned.bgr, expected.bgr, cv::NORM_INF), 0.0);
+}
+
+TEST(MapOnAnImage, LeavesWhatIsBesideItsCells) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 10.0}, {0.2, 0.2, 0.2}, {1, 1, 1}));
+  grid.log_odds[0] = 5.0F;
+  MapCamera camera;
+  camera.focal_px = 1000.0;
+  camera.centre_px = {50.0, 40.0};
+  MapCanvas canvas = make_canvas({100, 80});
+  canvas.bgr.setTo(cv::Scalar(30.0, 60.0, 90.0));
+  lay_map(canvas, camera, grid);
+  EXPECT_NE(canvas.bgr.at<cv::Vec3b>(40, 50), cv::Vec3b(30, 60, 90));
+  EXPECT_EQ(canvas.bgr.at<cv::Vec3b>(40, 70), cv::Vec3b(30, 60, 90));
+}
+
 }  // namespace
 }  // namespace vantage

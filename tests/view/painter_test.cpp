@@ -83,6 +83,9 @@ class PaintedView : public testing::Test {
   static std::filesystem::path file_in(const support::TemporaryDirectory& folder) {
     write_file(folder / "scene.xml",
                "<mujoco><worldbody><geom type='plane' size='5 5 .1' rgba='.3 .5 .7 1'/>"
+               // Ahead of the eye, for people alone.
+               "<geom type='box' size='.15 .15 .1' pos='1.9 2 .1' group='5' contype='0' "
+               "conaffinity='0' rgba='.1 .9 .3 1'/>"
                "<light pos='0 0 4'/><body name='robot/base' pos='1 2 .5'><freejoint/>"
                "<geom size='.1' rgba='.9 .2 .1 1'/>"
                "<camera name='robot/eye' pos='0 0 .3' xyaxes='0 -1 0 .4 0 .9'/></body>"
@@ -208,6 +211,57 @@ TEST_F(PaintedView, HasMapAndGainsOfWhatIsKnown) {
   captions_.plan.clear();
   known.go_to(work_.new_events, 1);
   EXPECT_EQ(unlike(painted(), drawn(work_.controls.overview, true, &known)), 0);
+}
+
+TEST(Overview, LooksUpWhereTheScenesOwnCameraDoes) {
+  const FreeCamera camera =
+      overview("<camera name='overview' pos='0 -9 1' xyaxes='1 0 0 0 -.8 .6'/>");
+  EXPECT_NEAR(camera.elevation_rad, std::asin(0.8), 1e-9);
+}
+
+TEST_F(PaintedView, IsTheSameForTheSameMomentWhateverWasPaintedBefore) {
+  ViewPainter painter(world_, scene_);
+  const ViewFrame first = painter.paint(work_);
+  work_.new_events.clear();
+  const auto earlier = work_.moment.state;
+  for (int tick = 0; tick < 4; ++tick) world_.advance_tick();
+  work_.moment.state = world_.state();
+  EXPECT_NE(painter.paint(work_).image.rgb, first.image.rgb);
+  work_.moment.state = earlier;
+  EXPECT_EQ(painter.paint(work_).image.rgb, first.image.rgb);
+  work_.controls.size = {80, 60};
+  const ViewFrame small = painter.paint(work_);
+  EXPECT_EQ(small.image.width_px, 80);
+  EXPECT_EQ(small.image.rgb.size(), 3U * 80U * 60U);
+}
+
+TEST_F(PaintedView, HasTheMapOrTheGainsAlone) {
+  EventReplay known(*scene_.content.map);
+  known.go_to(work_.new_events, 1);
+  const cv::Mat plain = drawn(work_.controls.overview, true);
+  work_.controls.map = true;
+  const ViewFrame with_map = painted();
+  EXPECT_EQ(unlike(with_map, drawn(work_.controls.overview, true, &known)), 0);
+  EXPECT_GT(unlike(with_map, plain), 0);
+  work_.controls.map = false;
+  work_.controls.gains = true;
+  EXPECT_EQ(unlike(painted(), plain), 0) << "nothing is decided yet";
+}
+
+TEST_F(PaintedView, OfOneScanSaysSo) {
+  scene_.content.scans = 1;
+  captions_.scene = "greedy    0.10 s    look 1 of 1";
+  EXPECT_EQ(unlike(painted(), drawn(work_.controls.overview, true)), 0);
+}
+
+TEST_F(PaintedView, OfARecordingThatIsItsBeginningAloneIsAtItsEnd) {
+  work_.moment.state[0] = 0.0;
+  work_.controls.duration_s = 0.0;
+  const ViewFrame frame = painted();
+  EXPECT_EQ(frame.time_s, 0.0);
+  captions_.scene = "greedy    0.00 s    look 1 of 3";
+  captions_.progress = 1.0;
+  EXPECT_EQ(unlike(frame, drawn(work_.controls.overview, true)), 0);
 }
 
 }  // namespace

@@ -141,5 +141,13 @@ TEST(NextDue, IsATenthOfASecondBehindAtMost) {
   EXPECT_EQ(next_due(now - 120ms, now, 0.025, 1.0), now - 95ms);
 }
 
+/// However late a tick goes on, none goes on before it is due.
+TEST(PlaybackGate, TicksAreDueOneAfterTheOther) {
+  const WallTime begun = std::chrono::steady_clock::now();
+  PlaybackGate gate(1.0);
+  for (int tick = 0; tick < 5; ++tick) ASSERT_TRUE(gate.wait(0.005));
+  EXPECT_GE(std::chrono::steady_clock::now(), begun + 25ms - 1us);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -93,7 +93,8 @@ cv::Mat session_bgr(const RenderedImages& image) {
 struct PlayedMoment {
   const char* key = nullptr;  ///< that a user presses
   std::optional<double> duration_s = {};
-  bool ends = false;  ///< its player, by itself
+  bool ends = false;   ///< its player, by itself
+  bool helps = false;  ///< with the help over it, if told so
 };
 
 /// Whether a picture of the window comes to be nearer to that with `told` in its corner than to
@@ -108,19 +109,20 @@ bool window_tells(const support::VirtualDisplay& display, const std::string& tol
   const auto file = folder / fmt::format("vantage-view-{:.2f}s.png", world.time_s());
   ViewOptions options;
   options.size = {400, 300};
-  const auto image_with = [&](const std::string& playback) {
+  const auto image_with = [&](const std::string& playback, bool help) {
     ViewPainter painter(world, {method_name(resolved.task), window(resolved)});
     ViewLink::Work work;
     work.moment = {state, 0, false};
     work.controls.size = options.size;
     work.controls.overview = overview_of(world, window(resolved));
     work.controls.playback = playback;
+    work.controls.help = help;
     work.controls.duration_s = moment.duration_s;
     return session_bgr(painter.paint(work).image);
   };
   // Where there is a window, nothing else may draw in its thread.
-  const cv::Mat with = std::async(std::launch::async, image_with, told).get();
-  const cv::Mat without = std::async(std::launch::async, image_with, untold).get();
+  const cv::Mat with = std::async(std::launch::async, image_with, told, moment.helps).get();
+  const cv::Mat without = std::async(std::launch::async, image_with, untold, false).get();
   auto user = std::async(std::launch::async, [&] {
     support::DesktopUser desktop(display, "title");
     if (moment.key != nullptr) desktop.press(moment.key);
@@ -152,6 +154,14 @@ TEST(ViewSession, TheWindowTellsHowItIsPlayed) {
                            {.key = "space"}));
   EXPECT_TRUE(window_tells(display, "recording    0.5 x    h: help", "recording    1 x    h: help",
                            {.key = "minus", .duration_s = 10.0}));
+}
+
+TEST(ViewSession, TheWindowShowsWhatAKeyAsksFor) {
+  const support::VirtualDisplay display;
+  EXPECT_TRUE(window_tells(display, "live    1 x    h: help", "live    1 x    h: help",
+                           {.key = "h", .helps = true}));
+  EXPECT_TRUE(window_tells(display, "live    paused    h: help", "live    ended    h: help",
+                           {.key = "space"}));
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // `vantage view` on a display in memory: what its window holds, and how it ends.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
 #include <future>
 #include <set>
 
@@ -137,6 +139,19 @@ TEST_F(View, AUserLooksAtARecording) {
   const auto first = written();
   user.press("End");
   while (written() == first) user.press("s");
+  for (const std::string& name : written()) fs::remove(folder_ / name);
+  const auto comes = [&](const std::vector<const char*>& times_s) {
+    const auto is_there = [&](const char* time_s) {
+      return fs::exists(folder_ / fmt::format("vantage-view-{}s.png", time_s));
+    };
+    for (int i = 0; i < 1500 && std::ranges::none_of(times_s, is_there); ++i) user.press("s");
+    return std::ranges::any_of(times_s, is_there);
+  };
+  user.press("Home");
+  EXPECT_TRUE(comes({"0.00"}));
+  user.press("period");
+  EXPECT_TRUE(comes({"0.02", "0.03"})) << "a tick of 0.025 s on";
+  EXPECT_FALSE(fs::exists(folder_ / "vantage-view-0.05s.png"));
   user.press("q");
   EXPECT_EQ(running.get().exit_code, 0);
 }
