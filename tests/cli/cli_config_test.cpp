@@ -69,6 +69,7 @@ TEST_F(CommandLine, ASetTakesSeveralAssignments) {
   EXPECT_EQ(plan.exit_code, 0) << plan.output;
   EXPECT_THAT(plan.output, testing::AllOf(HasSubstr("2 scans"), HasSubstr("seed 7")));
   EXPECT_EQ(vantage("run --set seed=7 assets/episodes/tabletop.yaml --dry-run").exit_code, 0);
+  EXPECT_EQ(vantage("run --dry-run --set seed=7 faults.gust_N=0").exit_code, 0);
 }
 
 TEST_F(CommandLine, ARobotThatIsNoneIsNamedByItsKey) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "tests/cli/command_line.hpp"
 
@@ -243,6 +244,36 @@ TEST_F(CommandLine, WithoutMeasurementsFeaturesHaveNoTimes) {
   }
   EXPECT_THAT(listed().output,
               HasSubstr(fmt::format("{:<16}{:>5} dimensions    2.50 ms\n", "sift", 1000)));
+}
+
+TEST_F(CommandLine, WhatIsExplainedComesBeforeWhatIsNot) {
+  const std::string both = vantage("explain nonsense gain.a gain").output;
+  EXPECT_LT(both.find("gain.a (episode)"), both.find("error: explain")) << both;
+  EXPECT_THAT(both, testing::Not(HasSubstr("keys: gain."))) << "it is no section";
+  EXPECT_EQ(vantage("explain nonsense --json 2>/dev/null").output, "");
+}
+
+TEST_F(CommandLine, FilesAreWrittenOneKindAtATime) {
+  for (const char* option : {"--manual", "--completion"}) {
+    const Result result = vantage(fmt::format("explain {} {}", option, option + 2));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_TRUE(fs::exists(folder_ / (option + 2))) << option;
+  }
+}
+
+/// Of a text that has a line as long as can be, and one that is a letter short of its next word.
+TEST_F(CommandLine, LinesAreFilledUpToAHundredCharacters) {
+  std::istringstream text(vantage("explain gaze.worth").output);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("  ")) lines.push_back(line);
+  }
+  ASSERT_GE(lines.size(), 3U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LE(lines[i].size(), 100U);
+    const std::string next = lines[i + 1].substr(2, lines[i + 1].find(' ', 2) - 2);
+    EXPECT_GT(lines[i].size() + 1 + next.size(), 100U) << lines[i];
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <sstream>
+#include <utility>
 
 #include "tests/cli/command_line.hpp"
 
@@ -269,6 +270,23 @@ TEST_F(CommonFlags, ASeedIsAWholeNumber) {
     const Result result = vantage("run --dry-run --seed=" + seed);
     EXPECT_EQ(result.exit_code, 2) << seed;
     EXPECT_THAT(result.output, HasSubstr("expected a whole number >= 0, got '" + seed + "'"));
+  }
+}
+
+TEST_F(CommonFlags, ACommandIsOneAndHasOneVerb) {
+  EXPECT_THAT(vantage("").output, HasSubstr("Subcommands:"));
+  for (const char* command : {"arena", "dataset", "scene", "sweep", "list gains doctor"}) {
+    const Result result = vantage(command);
+    EXPECT_EQ(result.exit_code, 2) << command << ": " << result.output;
+  }
+}
+
+/// It is asked to render where nothing can be written.
+TEST_F(CommonFlags, ObjectsAreRenderedByAThousandProcessesAtMost) {
+  file("blocker", "");
+  for (const auto& [jobs, exit_code] : {std::pair("1", 5), {"1024", 5}, {"0", 2}, {"1025", 2}}) {
+    const Result result = vantage(fmt::format("dataset render blocker/d -q --jobs {}", jobs));
+    EXPECT_EQ(result.exit_code, exit_code) << jobs << ": " << result.output;
   }
 }
 

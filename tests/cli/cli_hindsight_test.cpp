@@ -51,11 +51,17 @@ TEST_F(HindsightCommands, BranchAsChosenHasTheRecordedHash) {
   EXPECT_EQ(other.exit_code, 0) << other.output;
   EXPECT_THAT(other.output, HasSubstr("\"same_bits\": false"));
   EXPECT_EQ(shell("test -f '" + folder_.string() + "/other/report.html'").exit_code, 0);
+  const auto manifest =
+      nlohmann::json::parse(shell("cat '" + folder_.string() + "/other/manifest.json'").output);
+  EXPECT_EQ(manifest["command"],
+            nlohmann::json({"vantage", "branch", "run", "--scan", "1", "--view", "14"}));
   const Result all = vantage("branch run --scan 2 --all -q");
   EXPECT_EQ(all.exit_code, 0) << all.output;
   EXPECT_THAT(all.output, HasSubstr("regret: "));
   EXPECT_THAT(shell("cat '" + folder_.string() + "/run/branches.json'").output,
               HasSubstr("\"scan\": 2"));
+  EXPECT_THAT(shell("cat '" + folder_.string() + "/run/report.html'").output,
+              testing::Not(HasSubstr("\"branches\":null")));
 }
 
 TEST_F(HindsightCommands, WhatCannotBeIsOneClearLine) {

@@ -284,6 +284,7 @@ TEST_F(Pictures, RenderedOnesAreToldAndShown) {
   const json again = parsed(render);
   EXPECT_EQ(again["objects"], 1);
   EXPECT_EQ(again["rendered"], 0);
+  EXPECT_LT(again["time_s"].get<double>(), 600.0) << "of this call alone";
   EXPECT_THAT(vantage("dataset info d").output,
               HasSubstr("d: 1 objects in 1 categories, 9 views, "));
   EXPECT_EQ(parsed("dataset info d")["views_of_video"], json({{"1", 3}, {"2", 3}, {"4", 3}}));
@@ -430,6 +431,7 @@ TEST_F(OwnPictures, ViewsAreAsFarApartAsTheirNamesSay) {
   EXPECT_EQ(known["views"][0]["view_rad"], 0.0);
   EXPECT_NEAR(known["views"][1]["view_rad"].get<double>(), 0.5 * std::numbers::pi, 1e-9);
   EXPECT_THAT(errors(), testing::Not(HasSubstr("--view-names")));
+  EXPECT_THAT(vantage(question + "left").output, HasSubstr("; look next at view "));
   const Result unknown = vantage(question + "behind_it");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.output,

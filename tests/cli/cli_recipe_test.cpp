@@ -1,4 +1,6 @@
 // `vantage train --recipe`: from a file that says how a model is made to its bytes.
+#include <algorithm>
+
 #include "tests/cli/command_line.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
@@ -37,6 +39,7 @@ TEST_F(Recipe, MakesTheSameModelWithAnyNumberOfJobs) {
   const Result first = make("one.model", "--cache one --jobs 1 -q");
   ASSERT_EQ(first.exit_code, 0) << first.output;
   EXPECT_THAT(first.output, HasSubstr("6 objects"));
+  EXPECT_THAT(first.output, HasSubstr(", 192 views\n")) << "8 of 2 videos of both recordings";
   ASSERT_EQ(make("three.model", "--cache three --jobs 3 -q").exit_code, 0);
   EXPECT_TRUE(bytes("one.model") == bytes("three.model"));
 }
@@ -145,6 +148,33 @@ TEST_F(Recipe, AnIncompleteRecordingIsNoRecording) {
   EXPECT_THAT(without.output, HasSubstr("mug_2"));
   ASSERT_EQ(vantage(render).exit_code, 0);
   EXPECT_EQ(vantage(train + "--overwrite").exit_code, 0);
+}
+
+/// Of recordings of which nothing is there but what they should show.
+TEST_F(Recipe, OfMissingObjectsFiveAreNamed) {
+  fs::create_directories(folder_ / "d");
+  for (const int objects : {1, 5, 6}) {
+    file("d/dataset.yaml", "objects: " + std::to_string(objects) + "\n");
+    const Result result = vantage("train d --out model -q");
+    EXPECT_EQ(result.exit_code, 3);
+    const std::string head = objects == 1 ? "d: rendering was broken off, an object is missing: "
+                                          : "d: rendering was broken off, " +
+                                                std::to_string(objects) + " objects are missing: ";
+    const auto from = result.output.find(head);
+    ASSERT_NE(from, std::string::npos) << result.output;
+    const std::string told = result.output.substr(from + head.size());
+    const std::string names = told.substr(0, told.find(';'));
+    EXPECT_EQ(std::ranges::count(names, ','), std::min(objects, 5) - (objects > 5 ? 0 : 1))
+        << names;
+    EXPECT_EQ(names.ends_with(", ..."), objects > 5) << names;
+  }
+}
+
+TEST_F(Recipe, ABrokenOffRenderingTellsWhatIsThere) {
+  const Result stopped = interrupted("dataset render d --jobs 1 --step-deg 60 -q",
+                                     "ls -d d/*/*_1 >listed 2>&1", "TERM");
+  EXPECT_EQ(stopped.exit_code, 143) << stopped.output;
+  EXPECT_THAT(stopped.output, HasSubstr(" objects complete, "));
 }
 
 }  // namespace

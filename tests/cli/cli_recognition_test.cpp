@@ -321,6 +321,16 @@ TEST_F(RecognitionCommands, MotionsAreOneForAllOrOneEach) {
   expect_error(vantage(recognise + " --motion-deg 1,2,3"), 2, {"3 turns given, there are 2"});
   expect_error(vantage(recognise + " --view-names a,b"), 2, {"2 names given, there are 3 views"});
   expect_error(vantage(recognise + " one.png"), 2, {"one is missing"});
+  views.clear();
+  for (const int frame : {13, 1, 7}) {  // the object is at 270, 0 and 135 deg
+    views += fmt::format(
+        " data/mug/mug_1/mug_1_2_{0}_crop.png data/mug/mug_1/mug_1_2_{0}_"
+        "depthcrop.png",
+        frame);
+  }
+  expect_bearings("", -90.0, -225.0);
+  fs::remove(folder_ / "data/mug/mug_1/mug_1_2_1_pose.txt");
+  expect_bearings("", 0.0, 0.0);
 }
 
 /// Seven of eight directions were seen, each 45 deg on from the one before, against the sense of a
@@ -328,14 +338,19 @@ TEST_F(RecognitionCommands, MotionsAreOneForAllOrOneEach) {
 TEST_F(RecognitionCommands, TheNextViewIsOneThatWasNotTaken) {
   train();
   std::string views;
+  std::string backward;
   for (int frame = 1; frame <= 13; frame += 2) {
-    views += fmt::format(
+    const std::string view = fmt::format(
         " data/mug/mug_1/mug_1_2_{0}_crop.png data/mug/mug_1/mug_1_2_{0}_depthcrop.png", frame);
+    views += view;
+    backward.insert(0, view);
   }
   const json known = parsed(kRecognise + views);
   ASSERT_EQ(known["views"].size(), 7U);
   EXPECT_NEAR(known["views"][6]["view_rad"].get<double>(), -1.5 * std::numbers::pi, 1e-6);
   EXPECT_NEAR(known["next"]["turn_deg"].get<double>(), 315.0, 1e-9);
+  const json back = parsed(kRecognise + backward);
+  EXPECT_NEAR(back["next"]["turn_deg"].get<double>(), 45.0, 1e-9) << "with the sense of a turn";
 }
 
 TEST_F(RecognitionCommands, AModelInWordsIsThatInJson) {

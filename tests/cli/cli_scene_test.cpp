@@ -52,6 +52,7 @@ TEST_F(SceneFromMesh, TellsWhatItMadeAsJson) {
   ASSERT_EQ(made.exit_code, 0) << made.output;
   const auto json = nlohmann::json::parse(made.output);
   EXPECT_EQ(json["geoms"]["boxes"], 1);
+  EXPECT_EQ(json["geoms"]["planes"], 0);
   EXPECT_EQ(json["T_scene_mesh"].size(), 16U);
   ASSERT_EQ(json["set"].size(), 4U);
   EXPECT_EQ(json["set"][0], "scans=20");

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "tests/cli/command_line.hpp"
 #include "tests/support/octomap_bytes.hpp"
 #include "vantage/belief/map/octomap_io.hpp"
@@ -116,6 +118,9 @@ TEST_F(ScoreViewsCommand, SampledViewsAreWrittenAndReadBack) {
   EXPECT_EQ(score(sampled + "--seed 3").output, first.output);
   EXPECT_NE(score(sampled + "--seed 4").output, first.output);
   EXPECT_EQ(score("--map room.bt --views mine.csv").output, first.output);
+  const json views = scored("--map room.bt --views mine.csv")["views"];
+  EXPECT_TRUE(std::ranges::any_of(views, [](const json& view) { return view["x_m"] > -1.5; }))
+      << "all about the region";
   expect_error(score(sampled + "--write-views none/mine.csv"), 5, {"none/mine.csv"});
   expect_error(score(sampled + "--write-views mine.csv"), 2, {"--write-views", "--overwrite"});
   EXPECT_EQ(score(sampled + "--write-views mine.csv --overwrite").exit_code, 0);

@@ -227,6 +227,8 @@ TEST_F(CommandLine, TheOutcomeInWordsEndsAsTheMetricsDo) {
   const std::string end = "\nended by: " + metrics["reason"].get<std::string>() + "\nstate hash " +
                           metrics["state_hash"].get<std::string>() + "\n";
   EXPECT_THAT(whole, testing::EndsWith(end + "report run/report.html\n"));
+  const auto manifest = nlohmann::json::parse(read_file(folder_ / "run/manifest.json"));
+  EXPECT_EQ(manifest["command"].at(1), "run");
   EXPECT_THAT(told("--out lean --lean"), testing::EndsWith(end));
   const std::string as_json = told("--out again --json");
   EXPECT_EQ(as_json, metrics_in("again"));
@@ -343,6 +345,15 @@ TEST_F(CommandLine, AViewedEpisodeIsTheOneThatWasAskedFor) {
   EXPECT_EQ(vantage("view nowhere --camera robot").exit_code, 3) << "the episode is missing";
   expect_error(vantage("view --screenshot shot.jpg"), 2,
                {"--screenshot: shot.jpg: expected a file name that ends in .png"});
+}
+
+TEST_F(CommandLine, WhatTheWindDidIsReplayed) {
+  const Result run = vantage(
+      "run assets/episodes/recognition.yaml --set max_views=1 --set faults.gust_N=4 "
+      "--set faults.gust_every_s=0.5 -q --out run");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const Result replayed = vantage("replay run");
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.output;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/cli/program_inside.hpp"
 #include "tests/support/shell.hpp"
 
 namespace vantage {
@@ -36,6 +37,9 @@ class CommandLine : public testing::Test {
     return (folder_ / name).string();
   }
   Result vantage(const std::string& arguments) {
+#ifdef VANTAGE_INSIDE  // of tests that have the program in them
+    if (auto result = support::run_inside(folder_, arguments)) return *result;
+#endif
     return shell("cd '" + folder_.string() + "' && " VANTAGE_BINARY " " + arguments);
   }
   /// What it says to --help; each is asked once.

@@ -57,6 +57,15 @@ TEST_F(RecipeFile, OverridesOfWhatIsCommonReachEveryRecording) {
   EXPECT_EQ(recipe.recordings[1].supersampling, 1);
 }
 
+TEST_F(RecipeFile, RecordingsMayBeOfOurOwnObjectsBesideScannedOnes) {
+  write_file(folder_ / "recipe.yaml",
+             "recordings:\n  - {session: 1}\n  - {session: 2, models: mine}\n");
+  const ModelRecipe recipe = read();
+  ASSERT_EQ(recipe.recordings.size(), 2U);
+  EXPECT_EQ(recipe.recordings[0].models, "");
+  EXPECT_EQ(recipe.recordings[1].models, (folder_ / "mine").string());
+}
+
 TEST(RecipeCheck, WantsRecordingsThatDifferAndHaveItsVideos) {
   const auto problem_of = [](const ModelRecipe& recipe) {
     try {

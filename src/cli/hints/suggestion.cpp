@@ -23,7 +23,7 @@ bool is_assignment(std::string_view word) {
   const auto equals = word.find('=');
   return equals != word.npos && equals > 0 &&
          std::ranges::all_of(word.substr(0, equals), [](unsigned char c) {
-           return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '.';
+           return std::isalnum(c) != 0 || c == '_' || c == '.';
          });
 }
 
