@@ -5,10 +5,12 @@
 #include <mujoco/mujoco.h>
 
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -20,6 +22,16 @@ inline const std::filesystem::path kCheckedInScenes =
     std::filesystem::path(VANTAGE_SOURCE_DIR) / "models" / "scenes";
 
 using Model = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
+
+/// Every scene of a list, as ./check models asks for it, or one of so many.
+/// @param of no multiple of the number of levels, so that each of them is among the few
+template <class Options>
+std::vector<Options> some_of(const std::vector<Options>& scenes, std::size_t of) {
+  if (std::getenv("VANTAGE_EVERY_SCENE") != nullptr) of = 1;
+  std::vector<Options> some;
+  for (std::size_t i = 0; i < scenes.size(); i += of) some.push_back(scenes[i]);
+  return some;
+}
 
 /// Fails the test on errors and on warnings.
 inline Model load_mjcf(const std::filesystem::path& path) {

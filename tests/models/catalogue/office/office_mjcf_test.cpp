@@ -90,7 +90,8 @@ std::vector<OfficeOptions> all_offices() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, OfficeFolder, testing::ValuesIn(all_offices()),
+INSTANTIATE_TEST_SUITE_P(Scenes, OfficeFolder,
+                         testing::ValuesIn(support::some_of(all_offices(), 5)),
                          [](const auto& info) { return info.param.name; });
 
 class CorridorFolder : public testing::TestWithParam<CorridorOptions> {};

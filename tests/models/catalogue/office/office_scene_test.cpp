@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/models/catalogue/scene_files.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/models/catalogue/office/corridor_plan.hpp"
 #include "vantage/models/catalogue/office/office_list.hpp"
@@ -105,7 +106,7 @@ TEST_P(Office, HasWhatTheLevelBelowHasAndMore) {
       same));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Office, testing::ValuesIn(office_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, Office, testing::ValuesIn(support::some_of(office_scenes(), 5)),
                          [](const auto& info) { return info.param.name; });
 
 /// A disc gets about in each room, from its doors on; between rooms it does not.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <set>
 #include <string>
@@ -31,16 +30,6 @@ class ClutterScene : public testing::TestWithParam<ClutterSceneOptions> {
 };
 
 class SteppedClutter : public ClutterScene {};
-
-/// Every one, as ./check models asks for it, or a few in which each level of clutter is.
-std::vector<ClutterSceneOptions> stepped_scenes() {
-  constexpr std::size_t kFew = 7;  // no multiple of the number of levels
-  const auto scenes = clutter_scenes();
-  const std::size_t step = std::getenv("VANTAGE_EVERY_SCENE") == nullptr ? kFew : 1;
-  std::vector<ClutterSceneOptions> stepped;
-  for (std::size_t i = 0; i < scenes.size(); i += step) stepped.push_back(scenes[i]);
-  return stepped;
-}
 
 TEST_P(ClutterScene, IsWhatTheToolWrites) {
   const support::TemporaryDirectory directory;
@@ -125,7 +114,8 @@ TEST_P(SteppedClutter, StandsStably) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ClutterScene, testing::ValuesIn(clutter_scenes()),
                          [](const auto& info) { return info.param.name; });
-INSTANTIATE_TEST_SUITE_P(Scenes, SteppedClutter, testing::ValuesIn(stepped_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, SteppedClutter,
+                         testing::ValuesIn(support::some_of(clutter_scenes(), 7)),
                          [](const auto& info) { return info.param.name; });
 
 TEST(ClutterScenes, SetsShareLevelsButNoSeed) {
