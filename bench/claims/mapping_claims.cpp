@@ -7,6 +7,18 @@
 #include "bench/claims/paired_difference.hpp"
 
 namespace vantage::bench {
+namespace {
+
+std::string not_ahead(const std::vector<std::string>& level_in,
+                      const std::vector<std::string>& behind_in) {
+  std::string text;
+  if (!level_in.empty()) text += fmt::format("level in {}; ", fmt::join(level_in, ", "));
+  if (!behind_in.empty())
+    text += fmt::format("`simple` is ahead in {}; ", fmt::join(behind_in, ", "));
+  return text;
+}
+
+}  // namespace
 
 Finding adaptive_against_simple(const StudyTables& study, const std::vector<const char*>& tables) {
   return held(
@@ -18,10 +30,12 @@ Finding adaptive_against_simple(const StudyTables& study, const std::vector<cons
         const bool to_simple = study.reference() == "simple";
         const std::string other = to_simple ? "adaptive" : "simple";
         std::vector<std::string> parts;
-        bool ahead = true;
+        std::vector<std::string> level_in, behind_in;
         for (const char* table : tables) {
           const Difference paired = study.difference(table, kAllPanels, other);
-          ahead = (to_simple ? is_below(paired) : is_above(paired)) && ahead;
+          const bool ahead = to_simple ? is_below(paired) : is_above(paired);
+          const bool behind = to_simple ? is_above(paired) : is_below(paired);
+          if (!ahead) (behind ? behind_in : level_in).push_back(fmt::format("`{}`", table));
           parts.push_back(fmt::format("`{}` {}", table, ratio_text(paired)));
         }
         std::vector<std::string> panels;
@@ -32,9 +46,10 @@ Finding adaptive_against_simple(const StudyTables& study, const std::vector<cons
           parts.push_back("area in " + fmt::format("{}", fmt::join(panels, ", ")));
         return {fmt::format("`{}` in terms of `{}`: {}", other, study.reference(),
                             fmt::join(parts, "; ")),
-                ahead,
-                "an interval holds 1; how much there was to win: the one-step oracle, which "
-                "knows what a view shows, has an area of " +
+                level_in.empty() && behind_in.empty(),
+                not_ahead(level_in, behind_in) +
+                    "how much there was to win: the one-step oracle, which knows what a view "
+                    "shows, has an area of " +
                     study.ratio_text("area", kAllPanels, "oracle")};
       });
 }
