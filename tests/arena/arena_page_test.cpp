@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/arena/hand_made_study.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/arena/foreign_planner.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -25,25 +26,11 @@ using testing::Not;
 class WrittenArena : public testing::Test {
  protected:
   void SetUp() override {
-    write_file(folder_ / "study.yaml", R"(title: Written
-episode: assets/episodes/tabletop.yaml
-set: {budget.time_s: 100}
-factors:
-  scene:
-    a: {scene: models/scenes/tabletop_4/scene.xml}
-    b: {scene: models/scenes/tabletop_8/scene.xml}
-  planner:
-    greedy: {choice: greedy}
+    results_ = support::hand_made_results(folder_.path(), R"(    greedy: {choice: greedy}
     random: {choice: random}
     oracle: {choice: oracle}
-seeds: [1]
-report: {compare: planner, reference: greedy, panels: scene, cluster: scene}
-)");
-    results_.study = read_study(folder_ / "study.yaml");
-    results_.directory = folder_.path();
-    results_.plan = plan_study(results_.study);
-    results_.states.assign(results_.plan.size(), EpisodeState::missing);
-    results_.measures.resize(results_.plan.size());
+)",
+                                          "[1]");
   }
   void put_metrics(const std::string& name, EpisodeState state,
                    const nlohmann::ordered_json& metrics) {

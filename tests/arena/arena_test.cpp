@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "tests/arena/hand_made_study.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/arena/arena_page.hpp"
 #include "vantage/arena/foreign_planner.hpp"
@@ -21,25 +22,11 @@ using testing::HasSubstr;
 class Arena : public testing::Test {
  protected:
   void SetUp() override {
-    write_file(folder / "study.yaml", R"(title: Hand-made
-episode: assets/episodes/tabletop.yaml
-set: {budget.time_s: 100}
-factors:
-  scene:
-    a: {scene: models/scenes/tabletop_4/scene.xml}
-    b: {scene: models/scenes/tabletop_8/scene.xml}
-  planner:
-    greedy: {choice: greedy}
+    results = support::hand_made_results(folder.path(), R"(    greedy: {choice: greedy}
     oracle: {choice: oracle}
     mine: {choice: {name: external, command: [sh, -c, "exit 1"]}}
-seeds: [1, 2]
-report: {compare: planner, reference: greedy, panels: scene, cluster: scene}
-)");
-    results.study = read_study(folder / "study.yaml");
-    results.directory = folder.path();
-    results.plan = plan_study(results.study);
-    results.states.assign(results.plan.size(), EpisodeState::missing);
-    results.measures.resize(results.plan.size());
+)",
+                                         "[1, 2]");
   }
 
   /// The share is seen from 50 s on.
