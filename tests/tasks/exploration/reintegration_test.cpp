@@ -380,18 +380,9 @@ TEST(Reintegration, MakesTheCloudAnewToo) {
 }
 
 /// In a room of 8 x 6 m, where its scanner sees the walls from where it believes to be.
-struct RoomRobot : support::StandingRobot {
+struct RoomRobot : support::JumpingRobot {
   RoomRobot() { test_plan::add_box(walls, -4.0, -3.0, 4.0, 3.0); }
   PlanarScan read_base_scanner() override { return planar_scan(walls, T_world_base, rng); }
-  void correct_pose(const Pose2& pose) override { T_world_base = pose; }
-  DriveResult drive_along(std::span<const Pose2> path, double /*max_speed_m_s*/,
-                          const std::function<bool()>& go_on) override {
-    for (const Pose2& waypoint : path) {
-      T_world_base = waypoint;
-      for (int tick = 0; tick < 10; ++tick) go_on();
-    }
-    return {};
-  }
 
   std::vector<test_plan::Segment> walls;
   Rng rng{5};

@@ -26,7 +26,7 @@ RegistrationOptions hall_registration() {
 }
 
 /// In a hall of 8 x 6 m, 1.2 m behind where it believes to be; or at a table's legs, where it does.
-struct HallRobot : support::StandingRobot {
+struct HallRobot : support::JumpingRobot {
   HallRobot() {
     test_plan::add_box(walls, -4.0, -3.0, 4.0, 3.0);
     table.room = {Eigen::Vector3d(-30, -30, 0), Eigen::Vector3d(30, 30, 2.5)};
@@ -54,15 +54,6 @@ struct HallRobot : support::StandingRobot {
       return scan;
     }
     return seen_from({T_world_base.x_m - 1.2, T_world_base.y_m, T_world_base.yaw_rad});
-  }
-  void correct_pose(const Pose2& pose) override { T_world_base = pose; }
-  DriveResult drive_along(std::span<const Pose2> path, double /*max_speed_m_s*/,
-                          const std::function<bool()>& go_on) override {
-    for (const Pose2& waypoint : path) {
-      T_world_base = waypoint;
-      for (int tick = 0; tick < 10; ++tick) go_on();
-    }
-    return {};
   }
 
   std::vector<test_plan::Segment> walls;
