@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -19,6 +21,8 @@ namespace {
 constexpr int kWalks = 240;
 constexpr int kWalkViews = 6;
 constexpr int kSteps = 20;  ///< of correlations from 0 to 1
+/// Seen from further above or below, an object looks different, which is no repetition.
+constexpr double kAsHigh_rad = 10.0 * std::numbers::pi / 180.0;
 
 /// Views of one object, one after the other.
 struct Walk {
@@ -43,6 +47,23 @@ std::map<std::string, std::vector<std::size_t>> recordings_of(std::span<const Vi
     if (recordings.size() > 1) break;
   }
   return recordings;
+}
+
+/// The views of a recording that the others lie round in elevation.
+std::vector<std::size_t> as_high_as_others(std::span<const ViewFeatures> views,
+                                           std::span<const std::size_t> recording) {
+  double lowest_rad = std::numeric_limits<double>::infinity();
+  double highest_rad = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (std::ranges::binary_search(recording, i)) continue;
+    lowest_rad = std::min(lowest_rad, views[i].elevation_rad - kAsHigh_rad);
+    highest_rad = std::max(highest_rad, views[i].elevation_rad + kAsHigh_rad);
+  }
+  std::vector<std::size_t> as_high;
+  std::ranges::copy_if(recording, std::back_inserter(as_high), [&](std::size_t i) {
+    return views[i].elevation_rad >= lowest_rad && views[i].elevation_rad <= highest_rad;
+  });
+  return as_high;
 }
 
 std::vector<PreparedObservationModel> models_without(std::span<const ViewFeatures> views,
@@ -132,21 +153,36 @@ double honest_temperature(const std::vector<Walk>& walks, const ObjectStates& st
   });
 }
 
-/// The walks of one recording, by models of the others.
+/// Held out for the walks of some of its views, by models of the others.
+struct Recording {
+  std::vector<std::size_t> views;
+  std::vector<std::size_t> walked;
+};
+
+std::vector<Recording> held_out_of(std::span<const ViewFeatures> views) {
+  std::vector<Recording> held_out;
+  auto recordings = recordings_of(views);
+  for (auto& [name, recording] : recordings) {
+    std::vector<std::size_t> walked = as_high_as_others(views, recording);
+    if (!walked.empty()) held_out.push_back({std::move(recording), std::move(walked)});
+  }
+  return held_out;
+}
+
 std::vector<Walk> walks_of(std::span<const ViewFeatures> views, std::span<const int> shown,
-                           std::span<const std::size_t> recording, int count,
-                           const RecognitionModel& model, const VarianceEstimate& variance,
-                           std::uint64_t seed, const LongWork& how) {
+                           const Recording& recording, int count, const RecognitionModel& model,
+                           const VarianceEstimate& variance, std::uint64_t seed,
+                           const LongWork& how) {
   std::vector<ViewFeatures> own;
   std::vector<int> own_shown;
-  for (const std::size_t i : recording) {
+  for (const std::size_t i : recording.walked) {
     own.push_back(views[i]);
     own_shown.push_back(shown[i]);
   }
   const std::vector<TurntableViews> turntables = turntables_of(own);
   Rng rng = Rng::stream(seed, "views that repeat each other");
   const auto chosen = some_indices(std::ssize(turntables), count, rng);
-  const auto models = models_without(views, shown, recording, model, variance);
+  const auto models = models_without(views, shown, recording.views, model, variance);
   std::vector<Walk> walks(chosen.size());
   work_through(chosen.size(), how, "views that repeat each other", [&](std::size_t w) {
     walks[w] = walk_of(turntables[static_cast<std::size_t>(chosen[w])], own, own_shown,
@@ -160,11 +196,11 @@ std::vector<Walk> walks_of(std::span<const ViewFeatures> views, std::span<const 
 double learn_view_correlation(std::span<const ViewFeatures> views, std::span<const int> shown,
                               const RecognitionModel& model, const VarianceEstimate& variance,
                               std::uint64_t seed, const LongWork& how) {
-  const auto recordings = recordings_of(views);
-  if (recordings.size() < 2) return 0.0;
+  const std::vector<Recording> recordings = held_out_of(views);
+  if (recordings.empty()) return 0.0;
   std::vector<Walk> walks;
   const int count = std::max(1, kWalks / static_cast<int>(recordings.size()));
-  for (const auto& [name, recording] : recordings) {
+  for (const Recording& recording : recordings) {
     std::vector<Walk> more = walks_of(views, shown, recording, count, model, variance, seed, how);
     std::ranges::move(more, std::back_inserter(walks));
   }

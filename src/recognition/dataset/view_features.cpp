@@ -39,6 +39,7 @@ std::vector<ViewFeatures> extract_features(std::span<const ViewEntry> views,
     extracted[i] = {.name = views[i].name,
                     .folder = views[i].folder,
                     .yaw_rad = views[i].yaw_rad,
+                    .elevation_rad = views[i].elevation_rad(),
                     .features = features_of(views[i], extractors, cache)};
   });
   return extracted;

@@ -16,6 +16,7 @@ struct ViewFeatures {
   ViewName name;
   std::filesystem::path folder;         ///< of the object; another recording has another
   double yaw_rad = 0.0;                 ///< of the object, [0, 2 pi)
+  double elevation_rad = 0.0;           ///< of the camera above the object's support
   std::vector<FeatureResult> features;  ///< in the order of the extractors
 };
 

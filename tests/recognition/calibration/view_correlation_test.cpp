@@ -23,8 +23,9 @@ constexpr int kRecordings = 3;
 /// recording, which is a folder or a video.
 /// @param beside_a_mute of two features, the first of which tells nothing
 /// @param burst that many first views of each series share all of their noise
+/// @param elevations_deg of each recording; empty: one of all
 double learnt(double shared, int recordings, bool by_video = false, bool beside_a_mute = false,
-              int burst = 0) {
+              int burst = 0, const std::vector<double>& elevations_deg = {}) {
   RecognitionModel model;
   model.states.bins = kBins;
   model.states.categories = {"cup"};
@@ -52,6 +53,10 @@ double learnt(double shared, int recordings, bool by_video = false, bool beside_
         if (by_video) view.name.video += recording;
         view.folder = fmt::format("/data/{}/cup/{}", by_video ? 0 : recording, view.name.object);
         view.yaw_rad = (i % kBins) * 2.0 * std::numbers::pi / kBins;
+        if (!elevations_deg.empty()) {
+          const double elevation_deg = elevations_deg[static_cast<std::size_t>(recording)];
+          view.elevation_rad = elevation_deg * std::numbers::pi / 180.0;
+        }
         const double of_all = i < burst ? 1.0 : shared;
         const Eigen::Vector3d seen =
             at[object] + std::sqrt(of_all) * common + std::sqrt(1.0 - of_all) * noise();
@@ -131,11 +136,21 @@ TEST(ViewCorrelation, IsOfViewsFromAllOverTheTurntable) {
   EXPECT_LE(learnt(0.0, kRecordings, false, false, 6), 0.5);
 }
 
-/// What is learnt of 130 objects, seen by a number, and how many items of each part of the work
+/// Objects look different from above, which is no repetition.
+TEST(ViewCorrelation, OfVideosFromOtherElevationsIsNotTold) {
+  EXPECT_GE(learnt(0.8, 2, true), 0.5);
+  EXPECT_EQ(learnt(0.8, 2, true, false, 0, {30.0, 60.0}), 0.0);
+  EXPECT_EQ(learnt(0.8, 2, false, false, 0, {30.0, 60.0}), 0.0) << "of folders";
+  EXPECT_EQ(learnt(0.8, 2, true, false, 0, {30.0, 39.0}), learnt(0.8, 2, true));
+  EXPECT_EQ(learnt(0.8, 2, true, false, 0, {41.0, 30.0}), 0.0);
+}
+
+/// What is learnt of 250 objects, seen by a number, and how many items of each part of the work
 /// were told of.
-std::pair<double, std::map<std::string, std::size_t>> learnt_of_many(int recordings,
-                                                                     int views_each) {
-  constexpr int kMany = 130;
+/// @param elevations_deg of each recording's views, one after the other; empty: one of all
+std::pair<double, std::map<std::string, std::size_t>> learnt_of_many(
+    int recordings, int views_each, const std::vector<std::vector<double>>& elevations_deg = {}) {
+  constexpr int kMany = 250;
   RecognitionModel model;
   model.states.bins = 1;
   model.states.categories = {"cup"};
@@ -153,6 +168,11 @@ std::pair<double, std::map<std::string, std::size_t>> learnt_of_many(int recordi
       view.name = {
           .category = "cup", .object = model.states.objects.back(), .video = 1, .frame = i};
       view.folder = fmt::format("/data/{}/cup/{}", i / views_each, view.name.object);
+      if (!elevations_deg.empty()) {
+        const auto& of_recording = elevations_deg[static_cast<std::size_t>(i / views_each)];
+        const auto at = static_cast<std::size_t>(i % views_each) % of_recording.size();
+        view.elevation_rad = of_recording[at] * std::numbers::pi / 180.0;
+      }
       const auto number = static_cast<float>(3.0 * k + rng.normal());
       view.features.push_back({Eigen::VectorXf::Constant(1, number), {}});
       shown.push_back(k);
@@ -171,6 +191,20 @@ TEST(ViewCorrelation, IsOf240WalksOfAllRecordings) {
   EXPECT_EQ(told.at("correlation of views"), 240U);
   EXPECT_LE(correlation, 1.0);
   EXPECT_TRUE(learnt_of_many(1, 2).second.empty()) << "of one recording";
+}
+
+/// Of three recordings two are seen from lower or higher than all others.
+TEST(ViewCorrelation, IsOfRecordingsWhoseElevationsOthersLieRound) {
+  const auto told = learnt_of_many(3, 2, {{30.0}, {45.0}, {60.0}}).second;
+  EXPECT_EQ(told.at("views that repeat each other"), 240U) << "of the middle one";
+  EXPECT_EQ(told.at("correlation of views"), 240U);
+}
+
+/// The third view of each series of the first recording is seen from where no other one is.
+TEST(ViewCorrelation, IsOfTheViewsThatOthersAreAsHighAs) {
+  EXPECT_EQ(learnt_of_many(2, 3, {{30.0, 30.0, 75.0}, {30.0}}).second.at("correlation of views"),
+            240U);
+  EXPECT_TRUE(learnt_of_many(2, 1, {{75.0}, {30.0}}).second.empty());
 }
 
 TEST(ViewCorrelation, OfSingleViewsIsNone) { EXPECT_EQ(learnt_of_many(2, 1).first, 0.0); }

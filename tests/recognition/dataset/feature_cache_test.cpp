@@ -63,6 +63,12 @@ TEST_F(FeatureCaching, GivesWhatExtractionGives) {
   EXPECT_EQ(files(), kept);
 }
 
+TEST_F(FeatureCaching, ViewsAreAsHighAsTheirVideos) {
+  for (const ViewFeatures& view : extract({})) {
+    EXPECT_EQ(view.elevation_rad, video_elevation_rad(view.name.video));
+  }
+}
+
 TEST_F(FeatureCaching, AnotherPictureIsAnotherView) {
   const auto before = extract(cache());
   const ViewEntry first = index_dataset(folder_.path() / "data").views.front();
