@@ -1,4 +1,4 @@
-# Sourced by ./run and ./test: installs what is missing, from Debian alone.
+# Sourced by the scripts: installs what is missing, from Debian alone.
 packages=(build-essential ca-certificates cmake file git ninja-build
   coinor-libclp-dev libassimp-dev libceres-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev libglfw3-dev libmujoco-dev libnanoflann-dev
   liboctomap-dev libopencv-core-dev libopencv-dnn-dev libopencv-features2d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-videoio-dev libopencv-dev
@@ -35,4 +35,11 @@ build() {
   fi
   [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset" "$@"
+}
+
+# ARGUMENTS...: asked for help, a script that has just changed its folder prints the comment at its head.
+help_if_asked() {
+  case "${1:-}" in
+    -h | --help) (cd "$OLDPWD" && sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0") && exit ;;
+  esac
 }

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/shell.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -235,6 +237,21 @@ TEST(Docs, TheTutorialShowsWhatIsTested) {
 
 TEST(Docs, TheMapFitsOnAPage) {
   EXPECT_LE(fs::file_size(fs::path(VANTAGE_SOURCE_DIR) / "ARCHITECTURE.md"), 8192U);
+}
+
+/// From anywhere, before anything is installed or built.
+TEST(Docs, ScriptsSayWhatTheyAreFor) {
+  const fs::path repository = VANTAGE_SOURCE_DIR;
+  for (const char* script :
+       {"test", "check", "faults", "fuzz", "mutate", "bench/run", "bench/studies"}) {
+    const std::string head = read(repository / script);
+    const auto from = head.find("\n# ") + 3;
+    const std::string first = head.substr(from, head.find('\n', from) - from);
+    const auto said =
+        vantage::support::shell("cd / && " + (repository / script).string() + " --help");
+    EXPECT_EQ(said.exit_code, 0) << script;
+    EXPECT_EQ(said.output.substr(0, said.output.find('\n')), first);
+  }
 }
 
 // The readers themselves.
