@@ -45,9 +45,9 @@ double Rng::uniform(double low, double high) { return low + (high - low) * unifo
 
 std::size_t Rng::uniform_index(std::size_t count) {
   expects(count > 0, "uniform_index of an empty range");
-  const std::uint64_t limit = UINT64_MAX - UINT64_MAX % count;
   std::uint64_t draw = next();
-  while (draw >= limit) draw = next();
+  // Below the first bound there is no need to divide for the second one, which is higher.
+  while (draw >= UINT64_MAX - count && draw >= UINT64_MAX - UINT64_MAX % count) draw = next();
   return static_cast<std::size_t>(draw % count);
 }
 

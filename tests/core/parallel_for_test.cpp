@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace vantage {
 namespace {
@@ -57,6 +60,87 @@ TEST(ParallelFor, RunsTwoAtOnceOnTwoThreads) {
     }
     EXPECT_EQ(met, 2) << "each waits for the other";
   });
+}
+
+BackgroundWork::Parts parts_of(std::size_t count, const std::function<void(std::size_t)>& work) {
+  BackgroundWork::Parts parts;
+  for (std::size_t i = 0; i < count; ++i) parts.emplace_back([=] { work(i); });
+  return parts;
+}
+
+TEST(BackgroundWork, DoesEachPartOnce) {
+  for (const bool in_background : {false, true}) {
+    std::vector<std::atomic<int>> done(100);
+    BackgroundWork work(parts_of(done.size(), [&](std::size_t i) { ++done[i]; }), in_background);
+    work.finish();
+    work.finish();
+    for (const auto& times : done) EXPECT_EQ(times, 1) << in_background;
+  }
+  BackgroundWork().finish();
+}
+
+TEST(BackgroundWork, InFrontOnlyBeginsWhenItIsToBeFinished) {
+  std::vector<std::size_t> done;
+  BackgroundWork work(parts_of(3, [&](std::size_t i) { done.push_back(i); }), false);
+  EXPECT_TRUE(done.empty());
+  work.finish();
+  EXPECT_EQ(done, (std::vector<std::size_t>{0, 1, 2}));
+}
+
+void wait_until(const std::atomic<int>& number, int least) {
+  for (int i = 0; i < 20000 && number < least; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_GE(number, least);
+}
+
+TEST(BackgroundWork, BeginsByItself) {
+  std::atomic<int> done{0};
+  BackgroundWork work(parts_of(2, [&](std::size_t) { ++done; }), true);
+  wait_until(done, 2);
+}
+
+TEST(BackgroundWork, WhoeverAsksWorksAlong) {
+  std::atomic<int> met{0};
+  const auto meet = [&](std::size_t) {
+    ++met;
+    wait_until(met, 2);  // each waits for the other
+  };
+  BackgroundWork work(parts_of(2, meet), true);
+  work.finish();
+}
+
+TEST(BackgroundWork, BeginsNothingAfterItWasStopped) {
+  std::atomic<int> begun{0};
+  std::atomic<int> ended{0};
+  std::atomic<int> stopping{0};
+  const auto last = [&](std::size_t) {
+    ++begun;
+    wait_until(stopping, 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ++ended;
+  };
+  BackgroundWork work(parts_of(1000, last), true);
+  wait_until(begun, 1);
+  stopping = 1;
+  work.stop();
+  EXPECT_EQ(ended, begun) << "none is under way";
+  EXPECT_LT(begun, 1000);
+  work.finish();
+  EXPECT_EQ(ended, begun);
+}
+
+TEST(BackgroundWork, ThrowsWhereItIsAskedFor) {
+  for (const bool in_background : {false, true}) {
+    std::atomic<int> begun{0};
+    const auto fail = [&](std::size_t) {
+      ++begun;
+      throw std::runtime_error("no memory");
+    };
+    BackgroundWork work(parts_of(1000, fail), in_background);
+    EXPECT_THROW(work.finish(), std::runtime_error);
+    EXPECT_LE(begun, 2);
+  }
 }
 
 }  // namespace

@@ -64,10 +64,10 @@ void MappingParts::note_useless(int attempt) const {
 }
 
 MappingParts::Before MappingParts::before_update() {
-  Prediction prediction = prediction_.get();
-  current_.predicted_cells = std::move(prediction.cells);
-  current_.by_distance = std::move(prediction.by_distance);
-  at_half_cells_ = prediction.at_half_cells;
+  predicting_.finish();
+  current_.predicted_cells = std::move(prediction_.cells);
+  current_.by_distance = std::move(prediction_.by_distance);
+  at_half_cells_ = prediction_.at_half_cells;
   return {wall_s(), belief_.grid(), robot_.dead_reckoned_base(), robot_.estimated_base()};
 }
 
@@ -79,11 +79,10 @@ void MappingParts::correct_pose(const BeliefUpdate& update) {
 void MappingParts::measure(const Before& before, const BeliefUpdate& update,
                            const Pose& T_world_sensor) {
   current_.map_time_s = wall_s() - before.start_s;
-  auto truth = std::async(in_background(), [&] {
+  const auto truth = [&] {
     evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
-  });
-  hold_forecast_against(before.grid);
-  truth.get();
+  };
+  BackgroundWork({truth, [&] { hold_forecast_against(before.grid); }}, in_background()).finish();
   current_.time_s = robot_.time_s();
   current_.energy_j = robot_.energy_used_j();
   current_.registered = update.registered;
@@ -215,10 +214,11 @@ void MappingParts::warn_not_reached(const Candidate& view, const Approach& appro
 
 /// The belief stays as it is until its next update: until then there is time.
 void MappingParts::predict(const Pose& T_world_sensor, InSight in_sight) {
-  if (prediction_.valid()) prediction_.wait();
+  predicting_.stop();
   T_world_predicted_ = T_world_sensor;
   in_sight_ = std::move(in_sight);
-  prediction_ = std::async(in_background(), [this] { return predicted(); });
+  prediction_ = {};
+  predicting_ = BackgroundWork(parts_of_prediction(), in_background());
 }
 
 /// Of the scan to come; what is seen in which direction only gains tell that can be swept.
@@ -237,23 +237,31 @@ double MappingParts::predicted_by(const Gain& gain) const {
       .predicted_cells;
 }
 
-MappingParts::Prediction MappingParts::predicted() const {
-  Prediction prediction;
-  for (const auto& [label, gain] : predictors_) {
-    prediction.cells.emplace_back(label, predicted_by(gain));
+/// The longest first: gains that cannot be swept.
+BackgroundWork::Parts MappingParts::parts_of_prediction() {
+  BackgroundWork::Parts parts;
+  prediction_.cells.resize(predictors_.size());
+  for (const bool swept : {false, true}) {
+    for (std::size_t i = 0; i < predictors_.size(); ++i) {
+      const Predictor& predictor = predictors_[i];
+      if (can_sweep(predictor.gain) != swept) continue;
+      parts.emplace_back([this, i, &predictor] {
+        prediction_.cells[i] = {predictor.label, predicted_by(predictor.gain)};
+      });
+    }
   }
-  prediction.by_distance = forecast(1.0, options_.metrics.distance_band_m);
-  if (options_.forecast.calibrate) {
+  parts.emplace_back(
+      [this] { prediction_.by_distance = forecast(1.0, options_.metrics.distance_band_m); });
+  if (!options_.forecast.calibrate) return parts;
+  parts.emplace_back([this] {
     const double all_m = robot_.view_field().range_max_m;
-    prediction.at_half_cells = forecast(0.5, all_m).front().predicted_cells;
-  }
-  return prediction;
+    prediction_.at_half_cells = forecast(0.5, all_m).front().predicted_cells;
+  });
+  return parts;
 }
 
 /// Where there is one thread, work waits until its result is asked for.
-std::launch MappingParts::in_background() const {
-  return episode_.threads > 1 ? std::launch::async : std::launch::deferred;
-}
+bool MappingParts::in_background() const { return episode_.threads > 1; }
 
 MapPanelInput MappingParts::panel() const {
   MapPanelInput input;

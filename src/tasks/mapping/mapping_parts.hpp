@@ -3,13 +3,13 @@
 #pragma once
 
 #include <functional>
-#include <future>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "vantage/core/parallel_for.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/choice/outside_choice.hpp"
@@ -164,8 +164,8 @@ class MappingParts {
   [[nodiscard]] BlockField transmission() const;
   [[nodiscard]] std::vector<PredictionBand> forecast(double hazard_factor, double width_m) const;
   [[nodiscard]] double predicted_by(const Gain& gain) const;
-  [[nodiscard]] Prediction predicted() const;
-  [[nodiscard]] std::launch in_background() const;
+  [[nodiscard]] BackgroundWork::Parts parts_of_prediction();
+  [[nodiscard]] bool in_background() const;
   void hold_forecast_against(const OccupancyGrid& before);
 
   const MappingOptions options_;
@@ -180,7 +180,8 @@ class MappingParts {
   InSight in_sight_;                           ///< of it, for the scan to come
   std::optional<PathLengths> true_ways_;       ///< once a choice that knows them has asked
   Rng choice_rng_;
-  std::future<Prediction> prediction_;  ///< under way since predict(); reads the above
+  Prediction prediction_;
+  BackgroundWork predicting_;  ///< under way since predict(); reads the above
 };
 
 }  // namespace vantage
