@@ -110,21 +110,50 @@ const Curve* curve_named(const PredictionErrors& errors, const std::string& name
   return found == errors.end() ? nullptr : &found->second;
 }
 
+/// Of the first episode of that level that has any.
+std::vector<std::string> predictors_of(const StudyResults& results, const Layout& layout,
+                                       std::size_t level) {
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    if (!results.measures[i] || layout.level(i) != level) continue;
+    std::vector<std::string> predictors;
+    for (const auto& [name, curve] : results.measures[i]->prediction_errors) {
+      predictors.push_back(name);
+    }
+    if (!predictors.empty()) return predictors;
+  }
+  return {};
+}
+
+/// That of the reference's method; the first one if it predicts nothing.
+std::size_t reference_among(const std::vector<std::string>& predictors, const StudyResults& results,
+                            const Layout& layout) {
+  std::string reference;
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    if (layout.level(i) == layout.level_called(results.study.report.reference)) {
+      reference = method_name(results.plan[i].resolved.task);
+    }
+  }
+  const auto found = std::ranges::find(predictors, reference);
+  return found == predictors.end() ? 0 : static_cast<std::size_t>(found - predictors.begin());
+}
+
+Figure predictors_figure(const StudyResults& results, const std::string& what,
+                         const std::string& title) {
+  Figure figure{.name = "predictors",
+                .title = results.study.title,
+                .subtitle = what,
+                .x_label = steps_of(results),
+                .y_label = title,
+                .panels = {}};
+  note_cluster(figure, results.study.report.cluster);
+  return figure;
+}
+
 /// All predictors along the episodes of one level.
 void add_predictors(Evaluation& evaluation, const StudyResults& results, const Layout& layout) {
   const StudyReport& report = results.study.report;
   const std::size_t along = layout.level_called(report.predictors_along);
-  std::vector<std::string> predictors;
-  std::string reference;
-  for (std::size_t i = 0; i < results.plan.size(); ++i) {
-    if (layout.level(i) == layout.level_called(report.reference)) {
-      reference = method_name(results.plan[i].resolved.task);
-    }
-    if (!results.measures[i] || layout.level(i) != along || !predictors.empty()) continue;
-    for (const auto& [name, curve] : results.measures[i]->prediction_errors) {
-      predictors.push_back(name);
-    }
-  }
+  const std::vector<std::string> predictors = predictors_of(results, layout, along);
   if (predictors.empty()) return;
   const auto error_of = [&](std::size_t episode, std::size_t predictor) -> const Curve* {
     if (layout.level(episode) != along) return nullptr;
@@ -141,20 +170,12 @@ void add_predictors(Evaluation& evaluation, const StudyResults& results, const L
   const std::string title = "absolute prediction error, cells";
   const std::string what = fmt::format("{}, along the episodes of {}, {}", title,
                                        report.predictors_along, direction_text(Better::lower));
-  const auto found = std::ranges::find(predictors, reference);
-  const auto reference_index =
-      found == predictors.end() ? 0 : static_cast<std::size_t>(found - predictors.begin());
-  evaluation.comparisons.push_back(
-      compare_levels("predictors", what, layout.panels(), predictors, reference_index, samples));
+  evaluation.comparisons.push_back(compare_levels("predictors", what, layout.panels(), predictors,
+                                                  reference_among(predictors, results, layout),
+                                                  samples));
   evaluation.comparisons.back().better = Better::lower;
   evaluation.comparisons.back().cluster = report.cluster;
-  Figure figure{.name = "predictors",
-                .title = results.study.title,
-                .subtitle = what,
-                .x_label = steps_of(results),
-                .y_label = title,
-                .panels = {}};
-  note_cluster(figure, report.cluster);
+  Figure figure = predictors_figure(results, what, title);
   add_panels(figure, results, layout, predictors, {.first_x = 2.0}, false, error_of);
   evaluation.figures.push_back(std::move(figure));
 }

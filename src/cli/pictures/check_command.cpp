@@ -9,6 +9,7 @@
 
 #include "vantage/cli/pictures/picture_commands.hpp"
 #include "vantage/dataset/pictures/check_dataset.hpp"
+#include "vantage/dataset/pictures/dataset_differences.hpp"
 #include "vantage/dataset/pictures/picture_layout.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/json.hpp"

@@ -1,7 +1,6 @@
 #include "vantage/dataset/pictures/check_dataset.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,27 +159,6 @@ void advise_on_objects(CheckedDataset& checked) {
   }
 }
 
-/// The objects of both are the same ones, so they are as large.
-std::optional<DatasetDifference> difference_of_sizes(const CheckedDataset& training,
-                                                     const CheckedDataset& test) {
-  constexpr double kMostRatio = 1.5;
-  std::vector<double> ratios;
-  for (const CheckedObject& object : test.objects) {
-    const auto same = std::ranges::find(training.objects, object.object, &CheckedObject::object);
-    if (same != training.objects.end() && same->size_m > 0.0 && object.size_m > 0.0) {
-      ratios.push_back(object.size_m / same->size_m);
-    }
-  }
-  if (ratios.empty()) return std::nullopt;
-  const double ratio = quantile_of(ratios, 0.5);
-  if (std::max(ratio, 1.0 / ratio) <= kMostRatio) return std::nullopt;
-  return DatasetDifference{
-      fmt::format("objects are {:.2g} times as large in {} as in {}: depth unit, focal length or "
-                  "the cut of one is not right",
-                  ratio, test.root.string(), training.root.string()),
-      true};
-}
-
 }  // namespace
 
 CheckedDataset check_dataset(const fs::path& root, int bins, const std::function<void()>& poll) {
@@ -223,69 +201,6 @@ CheckedDataset check_dataset(const fs::path& root, int bins, const std::function
   checked.distance_m = spread_of(distance_m);
   advise_on_objects(checked);
   return checked;
-}
-
-std::vector<DatasetDifference> differences(const CheckedDataset& training,
-                                           const CheckedDataset& test) {
-  std::vector<DatasetDifference> found;
-  const std::string a = training.root.string(), b = test.root.string();
-  if (training.cut != test.cut) {
-    const bool mendable = training.cut != ObjectCut::mask;
-    found.push_back(
-        {fmt::format("the object is cut by {} in {} and by {} in {}: features of one do not fit "
-                     "the other; {}",
-                     to_string(training.cut), a, to_string(test.cut), b,
-                     mendable ? fmt::format("evaluate and recognise cut by {} again",
-                                            to_string(training.cut))
-                              : "import the first with --cut depth too and train on that"),
-         !mendable});
-  }
-  const double fuller = std::max(training.mask.median, test.mask.median);
-  const double emptier = std::min(training.mask.median, test.mask.median);
-  if (training.cut == test.cut && training.cut == ObjectCut::mask && fuller > 1.5 * emptier) {
-    found.push_back({fmt::format("masks fill {:.0f} % of a picture in {} and {:.0f} % in {}: they "
-                                 "may have been made in different ways",
-                                 100.0 * training.mask.median, a, 100.0 * test.mask.median, b),
-                     false});
-  }
-  if (std::abs(training.holes.median - test.holes.median) > 0.15) {
-    found.push_back({fmt::format("{:.0f} % of the object has no depth in {}, {:.0f} % in {}",
-                                 100.0 * training.holes.median, a, 100.0 * test.holes.median, b),
-                     false});
-  }
-  if (std::abs(training.focal_px - test.focal_px) > 0.02 * training.focal_px) {
-    found.push_back(
-        {fmt::format(
-             "the focal length is {} px in {} and {} px in {}; right only if the cameras differ",
-             training.focal_px, a, test.focal_px, b),
-         false});
-  }
-  if (const auto sizes = difference_of_sizes(training, test)) found.push_back(*sizes);
-  std::size_t shared = 0;
-  std::string first;
-  for (const auto& [hash, file] : test.pictures) {
-    const auto same = training.pictures.find(hash);
-    if (same == training.pictures.end()) continue;
-    if (++shared == 1) first = fmt::format("{} is {}", file.string(), same->second.string());
-  }
-  if (shared > 0) {
-    found.push_back(
-        {fmt::format("{} of {} pictures to test on are trained on ({}); take them out of one",
-                     shared, test.pictures.size(), first),
-         true});
-  }
-  std::vector<std::string> unseen;
-  for (const CheckedObject& object : test.objects) {
-    if (std::ranges::find(training.objects, object.object, &CheckedObject::object) ==
-        training.objects.end())
-      unseen.push_back(object.object);
-  }
-  if (!unseen.empty()) {
-    found.push_back({fmt::format("not trained on: {}; of these only the category can be right",
-                                 fmt::join(unseen, ", ")),
-                     false});
-  }
-  return found;
 }
 
 }  // namespace vantage

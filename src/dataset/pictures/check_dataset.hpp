@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,14 +48,5 @@ struct CheckedDataset {
 /// @throws InputError if the folder holds no views at all.
 CheckedDataset check_dataset(const std::filesystem::path& root, int bins,
                              const std::function<void()>& poll);
-
-/// What differs between a dataset that is trained on and one that is tested on; empty: nothing.
-/// @return advice, problems marked by `problem`
-struct DatasetDifference {
-  std::string text;
-  bool problem = false;
-};
-std::vector<DatasetDifference> differences(const CheckedDataset& training,
-                                           const CheckedDataset& test);
 
 }  // namespace vantage

@@ -97,45 +97,58 @@ Eigen::Vector3d posterior_step(const Eigen::Matrix3d& information, const Eigen::
       .solve(information * wanted + prior.information * back);
 }
 
+/// Root mean square.
+double mean_lever_m(const std::vector<Correspondence>& pairs) {
+  double lever2 = 0.0;
+  for (const Correspondence& pair : pairs) lever2 += pair.lever.head<2>().squaredNorm();
+  return std::sqrt(lever2 / static_cast<double>(pairs.size()));
+}
+
+struct NormalEquations {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double weights = 0.0;  ///< their sum
+};
+
+/// @param arm_m a turn times this is the third unknown
+NormalEquations normal_equations(const std::vector<Correspondence>& pairs, double kernel_m,
+                                 double arm_m) {
+  NormalEquations sum;
+  for (const auto& [lever, normal, residual_m] : pairs) {
+    const double moment = normal.y() * lever.x() - normal.x() * lever.y();
+    const Eigen::Vector3d row(normal.x(), normal.y(), moment / arm_m);
+    const double w = robust_weight(residual_m, kernel_m);
+    sum.matrix += w * row * row.transpose();
+    sum.gradient += w * residual_m * row;
+    sum.weights += w;
+  }
+  return sum;
+}
+
 /// One Gauss-Newton step on  sum_i w_i (r_i + n_i . (d + theta z x l_i))^2  [ChenMedioni1992, (4)].
 /// The turn is scaled by the mean lever so that all three unknowns are metres; eigenvectors of the
 /// normal matrix that hardly any surface constrains are left out [ZhangKaessSingh2016, (16)].
 Step gauss_newton_step(const std::vector<Correspondence>& correspondences, double kernel_m,
                        const RegistrationOptions& options, const Pose2& pose,
                        const PosePrior* prior) {
-  double lever2 = 0.0;
-  for (const Correspondence& correspondence : correspondences)
-    lever2 += correspondence.lever.head<2>().squaredNorm();
-  const double arm_m = std::sqrt(lever2 / static_cast<double>(correspondences.size()));
+  const double arm_m = mean_lever_m(correspondences);
   if (!(arm_m > 0.0)) return {};
-
-  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  double weights = 0.0;
-  for (const Correspondence& correspondence : correspondences) {
-    const double moment = correspondence.normal.y() * correspondence.lever.x() -
-                          correspondence.normal.x() * correspondence.lever.y();
-    const Eigen::Vector3d row(correspondence.normal.x(), correspondence.normal.y(), moment / arm_m);
-    const double w = robust_weight(correspondence.residual_m, kernel_m);
-    normal_matrix += w * row * row.transpose();
-    gradient += w * correspondence.residual_m * row;
-    weights += w;
-  }
+  const NormalEquations equations = normal_equations(correspondences, kernel_m, arm_m);
   // Per unit weight: a bad start makes all weights small, which is no lack of constraint.
   const double min_share =
       prior != nullptr
           ? kNoiseShare
           : std::max(options.min_constraint, options.min_constraint_correspondences /
                                                  static_cast<double>(correspondences.size()));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal_matrix);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(equations.matrix);
   Eigen::Vector3d solution = Eigen::Vector3d::Zero();
   Step step;
   for (int i = 0; i < 3; ++i) {
     const double strength = solver.eigenvalues()[i];
-    if (!(strength > min_share * weights)) continue;
+    if (!(strength > min_share * equations.weights)) continue;
     const Eigen::Vector3d direction = solver.eigenvectors().col(i);
-    solution -= direction * (direction.dot(gradient) / strength);
-    const double said = prior == nullptr ? strength : strength - min_share * weights;
+    solution -= direction * (direction.dot(equations.gradient) / strength);
+    const double said = prior == nullptr ? strength : strength - min_share * equations.weights;
     step.strength += said * direction * direction.transpose();
     --step.unconstrained;
   }

@@ -205,6 +205,27 @@ std::vector<Start> known_starts(const TestViews& test, std::vector<Start> starts
   return starts;
 }
 
+void require_unknown(const RecognitionStudyOptions& options, const Recogniser& recogniser) {
+  if (options.unknown_starts == 0 || recogniser.states.unknown_size() > 0) return;
+  throw ConfigError(
+      "unknown_starts: the model was trained without unknown objects, or "
+      "recogniser.unknown_prior is 0");
+}
+
+std::vector<ChangeTrials> changes_of(const Recogniser& recogniser,
+                                     const std::vector<Eigen::MatrixXf>& likelihoods,
+                                     const Trials& trials) {
+  const RecognitionStudyOptions& options = trials.options;
+  const ChangeOptions change{.recognition = for_changes(options.recognition)};
+  const std::vector<Start> starts =
+      known_starts(trials.test, draw_starts(trials.test, options.change_starts, options.seed));
+  if (starts.empty() || recogniser.states.object_count() < 2) {
+    throw ConfigError("change_starts: needs two objects or more that the model knows");
+  }
+  return evaluate_changes(recogniser, trials.test, likelihoods, starts, change, options.seed,
+                          trials.how);
+}
+
 }  // namespace
 
 void RecognitionStudyOptions::check() const {
@@ -217,11 +238,7 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
   check_options(options);
   const std::vector<Method> methods = wanted_methods(options);
   const Recogniser recogniser = make_recogniser(model, options.recogniser, how.threads);
-  if (options.unknown_starts > 0 && recogniser.states.unknown_size() == 0) {
-    throw ConfigError(
-        "unknown_starts: the model was trained without unknown objects, or "
-        "recogniser.unknown_prior is 0");
-  }
+  require_unknown(options, recogniser);
   const RecognitionModel used = with_features(model, options.recogniser.features);
   const PartedViews parts =
       options.unknown_starts > 0 ? parted(dataset, model.states) : PartedViews{dataset, {}};
@@ -246,16 +263,7 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
   if (options.combinations) add_combinations(study, recogniser, likelihoods, trials);
   if (options.literal) add_literal_settings(study, used, trials);
   if (options.baselines) add_baselines(study, used, of_baselines, trials);
-  if (options.change_starts > 0) {
-    const ChangeOptions change{.recognition = for_changes(options.recognition)};
-    const std::vector<Start> change_starts =
-        known_starts(test, draw_starts(test, options.change_starts, options.seed));
-    if (change_starts.empty() || used.states.object_count() < 2) {
-      throw ConfigError("change_starts: needs two objects or more that the model knows");
-    }
-    study.changes =
-        evaluate_changes(recogniser, test, likelihoods, change_starts, change, options.seed, how);
-  }
+  if (options.change_starts > 0) study.changes = changes_of(recogniser, likelihoods, trials);
   return study;
 }
 
