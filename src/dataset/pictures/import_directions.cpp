@@ -95,6 +95,25 @@ Directions named_directions(const ImportOptions& options, const std::vector<Item
   return directions_of_names(outcome.views);
 }
 
+/// Of --view-yaw, each of which some picture needs. @throws ConfigError
+void check_given_yaws(const ImportOptions& options, const std::vector<Item>& items) {
+  for (const auto& [name, yaw_deg] : options.yaw_deg) {
+    const auto is_called = [&called = name](const Item& i) { return i.picture.view == called; };
+    const bool used = std::ranges::any_of(items, is_called);
+    if (!used)
+      throw ConfigError(fmt::format("--view-yaw {}={}: no picture is called that", name, yaw_deg));
+    const bool asked_for = std::ranges::any_of(
+        items, [&](const Item& i) { return is_called(i) && !i.picture.yaw_deg; });
+    if (!asked_for) {
+      throw ConfigError(fmt::format(
+          "--view-yaw {}={}: all pictures of that name tell their angle, by a pose or their name",
+          name, yaw_deg));
+    }
+    if (!std::isfinite(yaw_deg))
+      throw ConfigError(fmt::format("--view-yaw {}={}: is no angle", name, yaw_deg));
+  }
+}
+
 }  // namespace
 
 void read_poses(std::vector<Item>& items) {
@@ -111,21 +130,7 @@ void read_poses(std::vector<Item>& items) {
 }
 
 void direct_views(const ImportOptions& options, std::vector<Item>& items, ImportOutcome& outcome) {
-  for (const auto& [name, yaw_deg] : options.yaw_deg) {
-    const auto is_called = [&called = name](const Item& i) { return i.picture.view == called; };
-    const bool used = std::ranges::any_of(items, is_called);
-    if (!used)
-      throw ConfigError(fmt::format("--view-yaw {}={}: no picture is called that", name, yaw_deg));
-    const bool asked_for = std::ranges::any_of(
-        items, [&](const Item& i) { return is_called(i) && !i.picture.yaw_deg; });
-    if (!asked_for) {
-      throw ConfigError(fmt::format(
-          "--view-yaw {}={}: all pictures of that name tell their angle, by a pose or their name",
-          name, yaw_deg));
-    }
-    if (!std::isfinite(yaw_deg))
-      throw ConfigError(fmt::format("--view-yaw {}={}: is no angle", name, yaw_deg));
-  }
+  check_given_yaws(options, items);
   const Directions directions = named_directions(options, items, outcome);
   std::vector<double> yaws;
   bool measured = false;
