@@ -41,6 +41,9 @@ std::vector<octomap::key_type> axis_keys(const GridFrame& frame, int axis, doubl
 }
 
 void insert_cells(const OccupancyGrid& grid, const fs::path& path, octomap::OcTree& tree) {
+  // OctoMap's default limits would cut the log odds of an .ot file.
+  tree.setClampingThresMin(1e-6);
+  tree.setClampingThresMax(1.0 - 1e-6);
   const double resolution_m = tree.getResolution();
   const auto x = axis_keys(grid.frame, 0, resolution_m, path);
   const auto y = axis_keys(grid.frame, 1, resolution_m, path);
@@ -55,6 +58,17 @@ void insert_cells(const OccupancyGrid& grid, const fs::path& path, octomap::OcTr
       }
     }
   }
+  tree.updateInnerOccupancy();
+}
+
+void write_tree(octomap::OcTree& tree, bool binary, const fs::path& path) {
+  if (binary) tree.toMaxLikelihood();
+  tree.prune();
+  // OctoMap's own writers print to stderr, so only the data are its.
+  std::ostringstream content;
+  content << octomap_header({binary, tree.getResolution(), tree.size()});
+  binary ? tree.writeBinaryData(content) : tree.writeData(content);
+  write_file(path, content.view());
 }
 
 /// Along an axis, of `count` cells from `first` on.
@@ -74,22 +88,15 @@ void write_octomap(const OccupancyGrid& grid, const fs::path& path) {
     throw OutputError(path.string() + ": an OctoMap file ends in .bt or .ot");
   }
   octomap::OcTree tree(grid.frame.cell_size_m.minCoeff());
-  // OctoMap's default limits would cut the log odds of an .ot file.
-  tree.setClampingThresMin(1e-6);
-  tree.setClampingThresMax(1.0 - 1e-6);
   insert_cells(grid, path, tree);
-  tree.updateInnerOccupancy();
-  if (binary) tree.toMaxLikelihood();
-  tree.prune();
-  // OctoMap's own writers print to stderr, so only the data are its.
-  std::ostringstream content;
-  content << octomap_header({binary, tree.getResolution(), tree.size()});
-  if (binary) {
-    tree.writeBinaryData(content);
-  } else {
-    tree.writeData(content);
-  }
-  write_file(path, content.view());
+  write_tree(tree, binary, path);
+}
+
+void write_octomaps(const OccupancyGrid& grid, const fs::path& folder) {
+  octomap::OcTree tree(grid.frame.cell_size_m.minCoeff());
+  insert_cells(grid, folder / "map.ot", tree);
+  write_tree(tree, false, folder / "map.ot");
+  write_tree(tree, true, folder / "map.bt");
 }
 
 OctomapContent read_octomap(const fs::path& path) {

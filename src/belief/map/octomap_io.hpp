@@ -18,6 +18,9 @@ namespace vantage {
 /// the world's origin, or the file cannot be written; nothing is left under `path` then.
 void write_octomap(const OccupancyGrid& grid, const std::filesystem::path& path);
 
+/// `map.bt` and `map.ot` of a folder, in little more than half the time.
+void write_octomaps(const OccupancyGrid& grid, const std::filesystem::path& folder);
+
 struct OctomapContent {
   double resolution_m = 0.0;
   std::size_t occupied = 0;  ///< cells of the finest level

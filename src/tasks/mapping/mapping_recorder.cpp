@@ -165,10 +165,7 @@ void MappingRecorder::write_map(const OccupancyGrid& grid, const PointCloud& clo
   write_voxels(directory() / "voxels.bin",
                {grid.frame.cell_size_m, grid.frame.box(), voxels_.of(grid)});
   write_ply(directory() / "cloud.ply", cloud);
-  if (grid.count(CellState::unobserved) < grid.size()) {
-    write_octomap(grid, directory() / "map.bt");
-    write_octomap(grid, directory() / "map.ot");
-  }
+  if (grid.count(CellState::unobserved) < grid.size()) write_octomaps(grid, directory());
 }
 
 RecordTexts mapping_records() {

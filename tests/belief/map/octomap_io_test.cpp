@@ -113,6 +113,18 @@ TEST_F(OctomapIo, StatesAloneArePrunedWhateverTheLogOdds) {
   EXPECT_EQ(read_file(directory_ / "varied.bt"), read_file(directory_ / "alike.bt"));
 }
 
+TEST_F(OctomapIo, BothOfAFolderAreThoseWrittenOneByOne) {
+  Rng rng(8);
+  OccupancyGrid grid = test::random_grid(table_frame(), 0.05, 0.5, rng);
+  for (std::size_t i = 0; i < grid.size() / 2; ++i) grid.log_odds[i] = -2.0F;  // there is to prune
+  write_octomaps(grid, directory_);
+  for (const char* extension : {".bt", ".ot"}) {
+    const fs::path alone = directory_ / (std::string("alone") + extension);
+    write_octomap(grid, alone);
+    EXPECT_EQ(read_file(directory_ / (std::string("map") + extension)), read_file(alone));
+  }
+}
+
 TEST_F(OctomapIo, InnerNodesHoldTheGreatestLogOddsBelowThem) {
   write_octomap(test::parse({".#"}), directory_ / "map.ot");
   const std::string bytes = read_file(directory_ / "map.ot");
