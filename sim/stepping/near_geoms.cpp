@@ -56,10 +56,11 @@ NearGeoms::NearGeoms(const mjModel& model)
     : model_(model),
       stepped_(std::make_unique<ModelPart>(model)),
       started_(static_cast<std::size_t>(model.ngeom)),
-      near_(static_cast<std::size_t>(model.ngeom), 1) {
+      near_(static_cast<std::size_t>(model.ngeom)) {
   for (int geom = 0; geom < model.ngeom; ++geom) {
     const int body = model.geom_bodyid[geom];
     if (!collides(model, geom)) continue;
+    near_[static_cast<std::size_t>(geom)] = 1;
     if (model.body_weldid[body] == 0) {
       fixed_.push_back({.geom = geom, .bounded = stays_in_box(model, geom)});
     } else {

@@ -66,7 +66,7 @@ class NearGeoms {
   std::vector<Fixed> fixed_;
   std::map<int, Tree> trees_;             ///< by the body that they hang on
   std::vector<Eigen::Vector3d> started_;  ///< where geoms were then, world
-  std::vector<char> near_;                ///< of each geom
+  std::vector<char> near_;                ///< of each geom; of what nothing can touch never
 };
 
 }  // namespace vantage

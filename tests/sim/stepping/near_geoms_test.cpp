@@ -103,6 +103,27 @@ TEST(NearGeoms, WhatIsFarIsLeftOutUntilSomethingComesNear) {
   EXPECT_EQ(near.stepped().geoms(), 1) << "what moves is stepped all the same";
 }
 
+TEST(NearGeoms, WhatNothingCanTouchIsLeftOutUnlessItMoves) {
+  const std::string picture = "type='box' size='.1 .1 .1' contype='0' conaffinity='0'/>";
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><geom type='plane' size='9 9 .1'/><geom name='decor' pos='.3 0 .1' " +
+      picture + "<body name='hand' mocap='true' pos='0 0 5'><geom name='glove' " + picture +
+      "</body><body pos='0 0 .2'><freejoint/><geom size='.2'/><geom name='shell' " + picture +
+      "</body></worldbody></mujoco>");
+  World world(folder.alone());
+  const auto id = [&](const char* name) {
+    return model_id(world.model(), ModelObject::geom, name);
+  };
+  NearGeoms near(world.model());
+  near.start(world.snapshot());
+  for (const char* name : {"decor", "glove", "shell"}) EXPECT_FALSE(near.is_near(id(name)));
+  EXPECT_EQ(near.stepped().geoms(), 4) << "floor, glove, ball and shell";
+  world.data().mocap_pos[2] = 1.25;
+  world.advance_tick();
+  EXPECT_DOUBLE_EQ(world.snapshot().geom_xpos[3 * id("glove") + 2], 1.25);
+  EXPECT_DOUBLE_EQ(world.snapshot().geom_xpos[3 * id("decor")], 0.3);
+}
+
 /// Hundreds of boxes, each a body of its own or all in one, some of them below others; sites,
 /// cameras and lights on bodies that stand still; bodies whose contacts are excluded; a door on a
 /// post; a body moved by hand.
