@@ -84,6 +84,12 @@ StudyTables StudyTables::compared_by(const std::string& factor,
   return {std::move(study), results_};
 }
 
+StudyTables StudyTables::ungrouped() const {
+  Study study = study_;
+  study.report.groups.clear();
+  return {std::move(study), results_};
+}
+
 void StudyTables::plan_episodes() {
   for (const EpisodeLevels& levels : episode_levels(study_)) {
     episodes_.push_back({levels.name, layout_.place(levels.levels), nullptr});

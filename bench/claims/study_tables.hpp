@@ -49,6 +49,9 @@ class StudyTables {
   [[nodiscard]] StudyTables compared_by(const std::string& factor,
                                         const std::string& reference) const;
 
+  /// The same episodes, each level a panel or a level of its own.
+  [[nodiscard]] StudyTables ungrouped() const;
+
   // Of a table (a column of results.csv, or "predictors"), a panel and a level; each throws NotRun
   // unless every episode of the plan that it is about came to a value.
   [[nodiscard]] double mean(const std::string& table, const std::string& panel,

@@ -80,7 +80,7 @@ bool is_asked_for(const std::string& column) {
                                "minimum_clearance_m",
                                "tracking_error_m",
                                "missed_deadlines"};
-  return column.starts_with("prediction_error_") ||
+  return column.starts_with("prediction_error_") || column.starts_with("forecast_ratio") ||
          std::ranges::find(kTables, column) != kTables.end();
 }
 
@@ -216,6 +216,35 @@ TEST(PlanningClaims, AnOracleThatGetsThereLessOftenIsNothingToBeNearTo) {
   const Finding less = near_oracle_without("e_1/");
   EXPECT_EQ(less.verdict, Verdict::no) << less.measured;
   EXPECT_NE(less.measured.find("8 and 7 of 8 get there"), std::string::npos) << less.measured;
+}
+
+/// Of forecasts that are right but in one office, up to 2 m.
+Finding forecasts_where_one_is(const char* ratio) {
+  const fs::path study = kRoot / "assets/studies/office_small.yaml";
+  CsvTable results = invented_results(study);
+  for (auto& row : results.rows) {
+    for (std::size_t i = 2; i < row.size(); ++i) {
+      if (results.columns[i].starts_with("forecast_ratio")) row[i] = "1";
+      if (results.columns[i] == "forecast_ratio_to_2_m" && row[0].starts_with("f_2/")) {
+        row[i] = row[0].find("/start_3/") != std::string::npos ? ratio : "1.1";
+      }
+    }
+  }
+  for (const Finding& finding : office_findings(StudyTables(study, results), "Fig. 3.15", {})) {
+    if (finding.claim.find("forecasts") != std::string::npos) return finding;
+  }
+  return {};
+}
+
+TEST(OfficeClaims, ForecastsAreHeldOfficeByOfficeAndDistanceByDistance) {
+  const Finding within = forecasts_where_one_is("1.09");
+  EXPECT_EQ(within.verdict, Verdict::yes) << within.measured;
+  EXPECT_THAT(within.measured,
+              testing::HasSubstr("up to 2 m 1.00 to 1.10, up to 3 m 1.00 to 1.00"));
+  const Finding above = forecasts_where_one_is("1.11");
+  EXPECT_EQ(above.verdict, Verdict::no) << above.measured;
+  EXPECT_THAT(above.why, testing::StartsWith("not in f_2 up to 2 m (1.105):"));
+  EXPECT_EQ(forecasts_where_one_is("0.69").verdict, Verdict::no) << "0.895 on average";
 }
 
 /// `study` without each of the entries of a list in turn.
