@@ -1,13 +1,14 @@
 /// Claims of the dissertation and goals of this project, each held against what was measured.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/claims/study_tables.hpp"
+#include "bench/tables/study_tables.hpp"
 
 namespace vantage::bench {
 
@@ -38,6 +39,9 @@ std::string findings_table(const std::vector<Finding>& findings);
 using Figures = std::map<std::string, Json>;
 
 std::vector<Finding> speed_findings(const Figures& figures);
+/// Of the studies of chapter 3. @param studies their files, `results` those of sweep collect
+std::vector<Finding> study_time_findings(const std::filesystem::path& studies,
+                                         const std::filesystem::path& results);
 std::vector<Finding> tabletop_findings(const StudyTables& study);
 std::vector<Finding> prediction_findings(const StudyTables& study);
 /// Of recognition, alone and among others, and of change detection on the quadrotor.

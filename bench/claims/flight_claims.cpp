@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bench/claims/claims.hpp"
-#include "bench/claims/paired_difference.hpp"
+#include "bench/tables/paired_difference.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "bench/claims/claims.hpp"
 #include "bench/claims/mapping_claims.hpp"
-#include "bench/claims/race.hpp"
+#include "bench/tables/race.hpp"
 
 namespace vantage::bench {
 namespace {

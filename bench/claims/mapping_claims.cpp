@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/claims/paired_difference.hpp"
+#include "bench/tables/paired_difference.hpp"
 
 namespace vantage::bench {
 namespace {

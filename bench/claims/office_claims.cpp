@@ -9,7 +9,7 @@
 
 #include "bench/claims/claims.hpp"
 #include "bench/claims/mapping_claims.hpp"
-#include "bench/claims/race.hpp"
+#include "bench/tables/race.hpp"
 
 namespace vantage::bench {
 namespace {

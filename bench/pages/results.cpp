@@ -209,9 +209,10 @@ std::string link(const std::string& page) { return fmt::format("\n[Tables](resul
 void write_results(const fs::path& directory) {
   const auto [figures, origins] = read_benchmarks(directory);
   const std::vector<StudyResult> studies = read_studies(directory);
+  std::vector<Finding> speed = speed_findings(figures);
+  std::ranges::move(study_time_findings("assets/studies", directory), std::back_inserter(speed));
   std::string text = std::string(kIntroduction) + "\n" + splits_table(directory, studies);
-  text += "\n## Speed\n\n`bench/run all`; " + commits_of(origins) + "\n\n" +
-          findings_table(speed_findings(figures)) +
+  text += "\n## Speed\n\n`bench/run all`; " + commits_of(origins) + "\n\n" + findings_table(speed) +
           link(write_speed_page(directory, figures, origins));
   for (const auto& [part, study] : studies) {
     std::vector<Finding> findings = part.findings(study);

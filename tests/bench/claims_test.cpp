@@ -10,6 +10,8 @@
 #include <string>
 
 #include "bench/claims/recognition_claims.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/study/measures.hpp"
 #include "vantage/study/study_reading.hpp"
@@ -335,6 +337,44 @@ TEST(SpeedClaims, AMissHasAReasonOfItsOwn) {
   for (const Finding& finding : findings) {
     if (finding.why.empty()) continue;
     EXPECT_TRUE(reasons.insert(finding.why).second) << finding.claim << ": " << finding.why;
+  }
+}
+
+/// All episodes of the three take that long.
+Findings study_times(double table_s, double office_s, bool whole = true) {
+  const support::TemporaryDirectory folder;
+  for (const char* name : {"tabletop", "office_small", "office_large"}) {
+    std::string text = "episode,wall_time_s\n";
+    const StudyReading reading =
+        read_study_file(kRoot / "assets/studies" / (std::string(name) + ".yaml"), {}, "report");
+    for (const auto& [episode, levels] : episode_levels(reading.study)) {
+      const double wall_s = std::string_view(name) == "tabletop" ? table_s : office_s;
+      text += episode + "," + std::to_string(wall_s) + "\n";
+    }
+    if (!whole) text = text.substr(0, text.rfind('\n', text.size() - 2) + 1);
+    fs::create_directories(folder.path() / name);
+    write_file(folder.path() / name / "timings.csv", text);
+  }
+  return study_time_findings(kRoot / "assets/studies", folder.path());
+}
+
+TEST(StudyTimes, AreOfTwoEpisodesAtATime) {
+  const Findings fast = study_times(6.5, 90.0);
+  EXPECT_EQ(fast[0].verdict, Verdict::yes) << "550 x 6.5 s / 2 are " << fast[0].measured;
+  EXPECT_EQ(fast[0].measured, "30 min");
+  EXPECT_EQ(fast[1].verdict, Verdict::yes) << "208 + 104 of 90 s are " << fast[1].measured;
+  EXPECT_EQ(fast[1].measured, "156 and 78 min");
+  const Findings slow = study_times(6.6, 93.0);
+  EXPECT_EQ(slow[0].verdict, Verdict::no) << slow[0].measured;
+  EXPECT_EQ(slow[1].verdict, Verdict::no) << slow[1].measured;
+}
+
+TEST(StudyTimes, AreNotRunWithoutOneOfTheirEpisodes) {
+  for (const Finding& finding : study_times(1.0, 1.0, false)) {
+    EXPECT_EQ(finding.verdict, Verdict::not_run) << finding.measured;
+  }
+  for (const Finding& finding : study_time_findings(kRoot / "assets/studies", "nowhere")) {
+    EXPECT_EQ(finding.verdict, Verdict::not_run) << finding.measured;
   }
 }
 

@@ -1,5 +1,5 @@
 // Who gets somewhere more often, and who sooner: of episodes that were run, arrived or not.
-#include "bench/claims/race.hpp"
+#include "bench/tables/race.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

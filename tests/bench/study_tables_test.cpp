@@ -1,5 +1,5 @@
 // Numbers of a study, from its results.csv, held against its plan.
-#include "bench/claims/study_tables.hpp"
+#include "bench/tables/study_tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "bench/claims/race.hpp"
+#include "bench/tables/race.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

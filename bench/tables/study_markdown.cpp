@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/claims/study_tables.hpp"
+#include "bench/tables/study_tables.hpp"
 
 namespace vantage::bench {
 namespace {

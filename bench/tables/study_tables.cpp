@@ -1,4 +1,4 @@
-#include "bench/claims/study_tables.hpp"
+#include "bench/tables/study_tables.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "bench/claims/paired_difference.hpp"
+#include "bench/tables/paired_difference.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/yaml.hpp"

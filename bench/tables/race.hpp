@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "bench/claims/paired_difference.hpp"
-#include "bench/claims/study_tables.hpp"
+#include "bench/tables/paired_difference.hpp"
+#include "bench/tables/study_tables.hpp"
 
 namespace vantage::bench {
 

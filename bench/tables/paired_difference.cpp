@@ -1,4 +1,4 @@
-#include "bench/claims/paired_difference.hpp"
+#include "bench/tables/paired_difference.hpp"
 
 namespace vantage::bench {
 
