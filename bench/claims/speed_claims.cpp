@@ -148,6 +148,7 @@ std::vector<Finding> speed_findings(const Figures& figures) {
           at_most(figures, "office", "sweep_ms", 150.0, kOffice),
           at_most(figures, "planning_office_large", "decision_ms", 500.0, kPlanning),
           at_most(figures, "planning_tabletop", "decision_ms", 60.0, kPlanningAtTable),
+          at_most(figures, "branches", "all_views_s", 60.0),
           at_least(figures, "office", "spearman_min", 0.99),
           at_most(figures, "office", "regret_max", 0.02),
           at_most(figures, "selection", "mi_ms", 1.0),

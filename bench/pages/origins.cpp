@@ -32,7 +32,8 @@ const std::vector<std::string> kWithoutEffect{"src/view",
 
 /// The sources of the program that printed a benchmark of that name.
 std::vector<std::string> sources_of(const std::string& benchmark) {
-  if (benchmark == "env") return {"bench/env.py", "bench/swept.cpp", "bench/episode.cpp", "python"};
+  if (benchmark == "env")
+    return {"bench/env/env.py", "bench/env/swept.cpp", "bench/episode.cpp", "python"};
   if (benchmark == "scaling") return {"bench/decision.cpp"};
   if (benchmark.starts_with("planning_")) return {"bench/planning.cpp"};
   return {fmt::format("bench/{}.cpp", benchmark == "office_views" ? "office" : benchmark)};
