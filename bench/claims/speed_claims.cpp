@@ -144,6 +144,8 @@ std::vector<Finding> speed_findings(const Figures& figures) {
           at_most(figures, "scaling", "exponent", 1.05),
           at_least(figures, "episode", "tabletop_real_time_factor", 40.0, kTablePace),
           at_least(figures, "episode", "office_real_time_factor", 80.0, kPace),
+          at_least(figures, "geoms", "boxes_2000_real_time_factor", 15.0),
+          at_least(figures, "geoms", "bodies_2000_real_time_factor", 15.0),
           faster_than_octomap(figures),
           at_most(figures, "office", "sweep_ms", 150.0, kOffice),
           at_most(figures, "planning_office_large", "decision_ms", 500.0, kPlanning),
