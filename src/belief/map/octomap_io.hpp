@@ -18,7 +18,7 @@ namespace vantage {
 /// the world's origin, or the file cannot be written; nothing is left under `path` then.
 void write_octomap(const OccupancyGrid& grid, const std::filesystem::path& path);
 
-/// `map.bt` and `map.ot` of a folder, in little more than half the time.
+/// `map.bt` and `map.ot` of a folder, from one tree.
 void write_octomaps(const OccupancyGrid& grid, const std::filesystem::path& folder);
 
 struct OctomapContent {

@@ -1,4 +1,5 @@
 // How views and a plan through them are drawn into the panel of a map.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -157,20 +158,36 @@ struct PanelParts : TabletopParts {
   using TabletopParts::tour_;
 };
 
+/// A robot at a table whose run is filmed, with an obstacle on its map.
+struct FilmedTable {
+  FilmedTable() { belief.grid_.log_odds[belief.grid_.size() / 2] = 3.0F; }
+
+  support::StillTable& table = support::still_table();
+  support::TemporaryDirectory folder;
+  RunRequest request =
+      support::mapping_request(table.episode, {folder.path() / "run", true, true, {}, true});
+  EpisodeRun run{request};
+  MappingRecorder recorder{run, recorded(table.robot), {}, 5};
+  support::StillBelief belief{table.options, table.task};
+  PanelParts parts{MappingContext{table.options, table.robot, table.evaluator, recorder, nullptr},
+                   table.task, table.robot, belief};
+
+  /// The panel of the still of that scan: its right half.
+  [[nodiscard]] cv::Mat panel(int scan) const {
+    const std::string name = fmt::format("run/frames/scan_{:02}.png", scan);
+    const cv::Mat still = cv::imread((folder.path() / name).string());
+    EXPECT_EQ(still.size(), cv::Size(1280, 720));
+    return still(cv::Rect(640, 0, 640, 720));
+  }
+};
+
 /// On its way to a view; a still of the video has the panel in its right half. Of the stops of the
 /// plan, nobody can propose the second one yet.
 TEST(MappingParts, ShowTheirScansTheirGoalAndTheirPlan) {
   if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
-  support::StillTable& table = support::still_table();
-  const support::TemporaryDirectory folder;
-  const RunRequest request =
-      support::mapping_request(table.episode, {folder.path() / "run", true, true, {}, true});
-  const EpisodeRun run(request);
-  MappingRecorder recorder(run, recorded(table.robot), {}, 5);
-  support::StillBelief belief(table.options, table.task);
-  belief.grid_.log_odds[belief.grid_.size() / 2] = 3.0F;
-  PanelParts parts(MappingContext{table.options, table.robot, table.evaluator, recorder, nullptr},
-                   table.task, table.robot, belief);
+  FilmedTable filmed;
+  const support::StillTable& table = filmed.table;
+  PanelParts& parts = filmed.parts;
   const std::vector<Candidate>& views = parts.views();
   const std::string gain = strategy_label(table.task.gain);
   parts.scans_.resize(2);
@@ -182,13 +199,13 @@ TEST(MappingParts, ShowTheirScansTheirGoalAndTheirPlan) {
   parts.scans_[1].predicted_cells = {{"another", 1.0}, {gain, 321.0}};
   parts.current_.chosen_view = 15;
   parts.tour_.stops = {{.id = 15}, {.id = -1, .place_m = {0.3, -0.2}}, {.id = 24}};
-  recorder.scan({}, 3, belief.grid());
+  filmed.recorder.scan({}, 3, filmed.belief.grid());
 
   const auto place_of = [&](std::size_t view) {
     return Eigen::Vector2d(views[view].T_world_sensor.translation().head<2>());
   };
   MapPanelInput expected;
-  expected.grid = &belief.grid();
+  expected.grid = &filmed.belief.grid();
   for (const Candidate& view : views) expected.T_world_candidates.push_back(view.T_world_sensor);
   for (const std::size_t view : {0U, 9U, 15U}) {
     expected.T_world_chosen.push_back(views[view].T_world_sensor);
@@ -202,30 +219,21 @@ TEST(MappingParts, ShowTheirScansTheirGoalAndTheirPlan) {
   expected.method = table.task.method_name();
   expected.predicted_new_cells = 321.0;
   expected.actual_new_cells = 500.0;
-  const cv::Mat still = cv::imread((folder.path() / "run/frames/scan_03.png").string());
-  ASSERT_EQ(still.size(), cv::Size(1280, 720));
-  const cv::Mat shown = still(cv::Rect(640, 0, 640, 720));
+  const cv::Mat shown = filmed.panel(3);
   EXPECT_EQ(cv::norm(shown, draw_map_panel(expected, {640, 720}), cv::NORM_INF), 0.0);
 }
 
 TEST(MappingParts, ShowTheWayToTheirFirstViewBeforeAnyScan) {
   if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
-  support::StillTable& table = support::still_table();
-  const support::TemporaryDirectory folder;
-  const RunRequest request =
-      support::mapping_request(table.episode, {folder.path() / "run", true, true, {}, true});
-  const EpisodeRun run(request);
-  MappingRecorder recorder(run, recorded(table.robot), {}, 5);
-  support::StillBelief belief(table.options, table.task);
-  belief.grid_.log_odds[belief.grid_.size() / 2] = 3.0F;
-  PanelParts parts(MappingContext{table.options, table.robot, table.evaluator, recorder, nullptr},
-                   table.task, table.robot, belief);
+  FilmedTable filmed;
+  const support::StillTable& table = filmed.table;
+  PanelParts& parts = filmed.parts;
   parts.current_.chosen_view = 0;
   parts.tour_.stops = {{.id = 0}, {.id = 24}};
-  recorder.scan({}, 1, belief.grid());
+  filmed.recorder.scan({}, 1, filmed.belief.grid());
 
   MapPanelInput expected;
-  expected.grid = &belief.grid();
+  expected.grid = &filmed.belief.grid();
   for (const Candidate& view : parts.views()) {
     expected.T_world_candidates.push_back(view.T_world_sensor);
   }
@@ -237,9 +245,7 @@ TEST(MappingParts, ShowTheWayToTheirFirstViewBeforeAnyScan) {
                          {.id = 24, .place_m = second.translation().head<2>()}};
   expected.scans_planned = table.task.scans;
   expected.method = table.task.method_name();
-  const cv::Mat still = cv::imread((folder.path() / "run/frames/scan_01.png").string());
-  ASSERT_EQ(still.size(), cv::Size(1280, 720));
-  const cv::Mat shown = still(cv::Rect(640, 0, 640, 720));
+  const cv::Mat shown = filmed.panel(1);
   EXPECT_EQ(cv::norm(shown, draw_map_panel(expected, {640, 720}), cv::NORM_INF), 0.0);
 }
 
