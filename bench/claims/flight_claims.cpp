@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 #include "bench/claims/claims.hpp"
@@ -18,15 +19,20 @@ double mean_of(const StudyTables& study, const char* table, const std::string& p
 }
 
 Finding no_contact(const StudyTables& study) {
-  return held("goal", "no contact with anything", [&]() -> Measured {
-    const double collisions = mean_of(study, "collisions", kAllPanels);
-    return {fmt::format("{:.3g} a flight", collisions), collisions == 0.0,
+  return held("goal", "no contact with anything, whatever chooses the views", [&]() -> Measured {
+    double collisions = 0.0;
+    for (const std::string& level : study.levels()) {
+      collisions = std::max(collisions, study.mean("collisions", kAllPanels, level));
+    }
+    return {fmt::format("{:.3g} a flight at most", collisions), collisions == 0.0,
             "see `collisions` by episode"};
   });
 }
 
 Finding accurate_views(const StudyTables& study) {
-  return held("goal", "views taken within 5 cm and 3 deg of where they were meant, on average",
+  return held("goal",
+              "views by mutual information are taken within 5 cm and 3 deg of where they were "
+              "meant, on average",
               [&]() -> Measured {
                 const double position_m = mean_of(study, "view_position_error_m", kAllPanels);
                 const double angle_deg =
@@ -144,13 +150,7 @@ std::vector<Finding> clutter_findings(const StudyTables& study) {
            "and more than the nearest free view, one object after the other, beyond the interval",
            beats_nearest),
       held("goal", "it takes fewer views in which the object is hidden", sees_more),
-      held("goal", "no contact with anything, whatever chooses the views", [&]() -> Measured {
-        double collisions = 0.0;
-        for (const std::string& level : study.levels()) {
-          collisions += study.mean("collisions", kAllPanels, level);
-        }
-        return {fmt::format("{:.3g} a flight", collisions), collisions == 0.0};
-      })};
+      no_contact(study)};
 }
 
 std::vector<Finding> flight_change_findings(const StudyTables& study) {

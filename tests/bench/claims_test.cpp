@@ -249,6 +249,29 @@ TEST(OfficeClaims, ForecastsAreHeldOfficeByOfficeAndDistanceByDistance) {
   EXPECT_EQ(forecasts_where_one_is("0.69").verdict, Verdict::no) << "0.895 on average";
 }
 
+/// What is held of contacts, where the flights of a method touch something.
+Verdict contacts(const Case& flights, const std::string& method) {
+  const fs::path study = kRoot / "assets/studies" / (std::string(flights.study) + ".yaml");
+  CsvTable results = invented_results(study);
+  const auto column = std::ranges::find(results.columns, "collisions") - results.columns.begin();
+  for (auto& row : results.rows) {
+    row[static_cast<std::size_t>(column)] = row[0].ends_with("/" + method) ? "1" : "0";
+  }
+  for (const Finding& finding : flights.hold(StudyTables(study, results))) {
+    if (finding.claim.starts_with("no contact with anything")) return finding.verdict;
+  }
+  return Verdict::not_run;
+}
+
+TEST(FlightClaims, AContactCountsWhateverChoosesTheViews) {
+  for (const Case& flights : {Case{"recognition_flight", flight_recognition_findings},
+                              Case{"change_flight", flight_change_findings},
+                              Case{"recognition_clutter", clutter_findings}}) {
+    EXPECT_EQ(contacts(flights, "none"), Verdict::yes) << flights.study;
+    EXPECT_EQ(contacts(flights, "random"), Verdict::no) << flights.study;
+  }
+}
+
 /// `study` without each of the entries of a list in turn.
 void without_each(const Json& study, const char* list,
                   const std::function<void(const Json&)>& see) {
