@@ -193,5 +193,24 @@ TEST(FewestScans, TakeNoViewTwice) {
   EXPECT_EQ(fewest_scans(showing({0b001111, 0b010000, 0b100000}, 6), {.rounds = 1}), 3U);
 }
 
+/// Three scans are found with the fourth set, two with the sixth.
+TEST(ExactSearch, SaysNothingWhereItIsCutShortAfterItHasFoundSome) {
+  const CoverProblem problem = showing({0b001111, 0b010011, 0b101100}, 6);
+  EXPECT_EQ(fewest_scans_exactly(problem, 6), 2U);
+  for (const std::size_t most_sets : {4U, 5U}) {
+    EXPECT_EQ(fewest_scans_exactly(problem, most_sets), std::nullopt) << most_sets;
+  }
+}
+
+TEST(ExactSearch, LooksAtNoSetThatCannotBeBetter) {
+  EXPECT_EQ(fewest_scans_exactly(showing({0b01, 0b10, 0b01, 0b10}, 2), 3), 2U);
+  CoverProblem problem = views_at({0.0, 1.0, -1.0});
+  problem.shows = {{0b0}, {0b1}, {0b1}};
+  problem.needed = 1;
+  const auto least = least_time_exactly(problem, 2);
+  ASSERT_TRUE(least) << "none, and the one of two that are as good";
+  EXPECT_NEAR(least->time_s, 1.0 + 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

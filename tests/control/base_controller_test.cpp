@@ -213,5 +213,49 @@ TEST(DrivePath, TakesTheFirstOfTwoNearestPointsAndCountsEveryCornerAhead) {
   EXPECT_NEAR(steps.speed_limit(3.7, {}), 0.4, 1e-9) << "one is behind, one 0.3 m ahead";
 }
 
+/// From (3, 4) / 5 by 45 degrees to either side: no leg lies along an axis.
+TEST(DrivePath, ABendIsAsSharpWhicheverWayItGoes) {
+  const double radius_m = 0.1 / std::tan(std::numbers::pi / 8.0);
+  for (const double side : {1.0, -1.0}) {
+    const double bearing_rad = std::atan2(4.0, 3.0) + side * std::numbers::pi / 4.0;
+    const Pose2 end{3.0 + 4.0 * std::cos(bearing_rad), 4.0 + 4.0 * std::sin(bearing_rad), 0.0};
+    const DrivePath path({}, std::vector<Pose2>{{3, 4, 0}, end});
+    EXPECT_NEAR(path.speed_limit(5.0, {}), std::sqrt(0.4 * 0.5 * radius_m), 1e-9) << side;
+  }
+}
+
+/// By the tangent of half its angle, with a lookahead so short that even such a bend would count.
+TEST(DrivePath, ABendOfLessThanAThousandthIsNone) {
+  BaseControllerOptions options;
+  options.lookahead_m = 1e-4;
+  const auto limit_m_s = [&](double half_tan) {
+    const double turn_rad = 2.0 * std::atan(half_tan);
+    const Pose2 end{5.0 + 5.0 * std::cos(turn_rad), 5.0 * std::sin(turn_rad), 0.0};
+    return DrivePath({}, std::vector<Pose2>{{5, 0, 0}, end}).speed_limit(5.0, options);
+  };
+  EXPECT_EQ(limit_m_s(0.9e-3), 0.6);
+  EXPECT_NEAR(limit_m_s(1.1e-3), std::sqrt(0.4 * 0.5 * 1e-4 / 1.1e-3), 1e-9);
+}
+
+/// 5 cm beside the path, 10 cm before its end, which is just the point ahead.
+TEST(FollowPath, WhereThePointAheadIsTheEndTheWayThatIsLeftCounts) {
+  const DrivePath path({}, std::vector<Pose2>{{1, 0, 0}});
+  PathFollowing following;
+  following.arc_m = 0.9;
+  const Twist2 twist = follow_path(path, {0.9, 0.05, 0.0}, 1.0, {}, following);
+  EXPECT_NEAR(std::hypot(twist.vx_m_s, twist.vy_m_s),
+              std::sqrt(0.7 * (std::hypot(0.1, 0.05) - 0.04375)), 1e-9);
+}
+
+TEST(FollowPath, WithinANanometreItHasArrived) {
+  const DrivePath path({}, std::vector<Pose2>{{1, 0, 0}});
+  for (const double off_m : {0.7e-9, 1.5e-9}) {
+    PathFollowing following;
+    following.arc_m = 1.0;
+    const Twist2 twist = follow_path(path, {1.0 - off_m, 0.0, 0.0}, kPeriod_s, {}, following);
+    EXPECT_EQ(twist.vx_m_s == 0.0, off_m < 1e-9) << off_m;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -357,5 +357,44 @@ TEST(ControlFlight, GoesByTheMotionOfItsCentreOfMass) {
   EXPECT_NEAR(given.collective_N, 1.24 * 9.81, 1e-9);
 }
 
+TEST(AttitudeError, OfHalfATurnIsTwo) {
+  const auto error = [](double x, double y, double z) {
+    const Eigen::Matrix3d R = Eigen::Vector3d(x, y, z).asDiagonal();
+    return Eigen::Vector3d(attitude_error(R, Eigen::Matrix3d::Identity()).cwiseAbs());
+  };
+  EXPECT_EQ(error(1.0, -1.0, -1.0), Eigen::Vector3d(2.0, 0.0, 0.0));
+  EXPECT_EQ(error(-1.0, 1.0, -1.0), Eigen::Vector3d(0.0, 2.0, 0.0));
+}
+
+/// Level, with no error but that the reference speeds up by 2 m/s^2, of which its thrust gives
+/// nothing yet: 6.5 times that a second is how the force changes.
+TEST(ControlFlight, WhatItsThrustDoesNotGiveYetChangesTheForce) {
+  FlightReference reference;
+  reference.a_world_m_s2 = {2.0, 0.0, 0.0};
+  FlightMemory memory;
+  const Allocation given = control_flight({}, reference, centred(), kFlightPeriod_s, {}, memory);
+  const AttitudeReference wanted = attitude_along({2.0, 0.0, 9.81}, {13.0, 0.0, 0.0}, 0.0, 0.0);
+  const Eigen::Matrix3d& R = wanted.R_world_body;
+  const Eigen::Vector3d turn_rad_s = R * wanted.w_body_rad_s;
+  const Eigen::Vector3d pull = Eigen::Vector3d(240.0, 240.0, 25.0)
+                                   .cwiseProduct(attitude_error(Eigen::Matrix3d::Identity(), R)) -
+                               Eigen::Vector3d(22.0, 22.0, 9.0).cwiseProduct(turn_rad_s);
+  const Eigen::Vector3d expected = -1.002 * (centred().inertia_kg_m2 * pull);
+  EXPECT_LT((wrench_of(centred(), given.thrust_N).torque_Nm - expected).norm(), 1e-9);
+  EXPECT_NEAR(given.collective_N, 1.24 * 9.81, 1e-9);
+}
+
+/// With next to no gains there is no torque that needs force either.
+TEST(ControlFlight, UpsideDownItLiftsNothing) {
+  FlightState state;
+  state.T_world_body.linear() = turned(std::numbers::pi, Eigen::Vector3d::UnitX());
+  FlightControllerOptions options;
+  options.attitude_per_s2 = 1e-9;
+  options.yaw_per_s2 = 1e-9;
+  FlightMemory memory;
+  const Allocation given = control_flight(state, {}, centred(), kFlightPeriod_s, options, memory);
+  EXPECT_NEAR(given.collective_N, 0.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "vantage/core/error.hpp"
@@ -76,6 +77,47 @@ TEST(PoseEstimate, MayBeOffInHeadingAloneOrInTiltAlone) {
   EXPECT_GT((tilted.of(truth).T_world_body.linear() - truth.T_world_body.linear()).norm(), 1e-3);
   EXPECT_TRUE(turned.of(tilted.of(truth)).T_world_body.isApprox(both, 1e-12));
   EXPECT_TRUE(both.translation() == truth.T_world_body.translation());
+}
+
+TEST(Gust, ADirectionIsLongerThanANanometre) {
+  Gust gust;
+  gust.direction = {0.0, 1.2e-9, 0.0};
+  EXPECT_NO_THROW(check_options(gust, "gust"));
+  gust.direction = {0.0, 0.8e-9, 0.0};
+  EXPECT_THROW(check_options(gust, "gust"), ConfigError);
+}
+
+TEST(PoseEstimate, RefusesOptionsOutOfRange) {
+  PoseNoiseOptions options;
+  options.correlation_s = 0.0;
+  EXPECT_THROW(PoseEstimate(options, Rng(1)), ConfigError);
+}
+
+/// Six draws at first and six each time: x, y, z, yaw, about x, about y.
+TEST(PoseEstimate, ErrorsAreTheDrawsOfItsGenerator) {
+  const PoseNoiseOptions options{.sigma_position_m = 0.02,
+                                 .sigma_yaw_rad = 0.03,
+                                 .sigma_tilt_rad = 0.004,
+                                 .correlation_s = 0.5};
+  Rng rng(7);
+  std::array<double, 6> error{};
+  for (double& e : error) e = rng.normal();
+  PoseEstimate estimate(options, Rng(7));
+  const auto expect_off_by_the_errors = [&] {
+    const Pose T = estimate.of(FlightState{}).T_world_body;
+    const Eigen::Vector3d off_m = 0.02 * Eigen::Vector3d(error[0], error[1], error[2]);
+    EXPECT_LT((T.translation() - off_m).norm(), 1e-12);
+    const Eigen::Vector3d tilt = 0.004 * Eigen::Vector3d(error[4], error[5], 0.0);
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(0.03 * error[3], Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+        Eigen::AngleAxisd(tilt.norm(), tilt.normalized()).toRotationMatrix();
+    EXPECT_LT((T.linear() - R).norm(), 1e-12);
+  };
+  expect_off_by_the_errors();
+  estimate.update(0.1);
+  const double keep = std::exp(-0.2);
+  for (double& e : error) e = keep * e + std::sqrt(1.0 - keep * keep) * rng.normal();
+  expect_off_by_the_errors();
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
@@ -26,10 +29,11 @@ TEST(MinimumJerkTrajectory, RestToRestIsTheQuinticOfLeastJerk) {
   const FlightWaypoint goal{.p_world_m = {2.0, 0.0, 0.0}};
   const MinimumJerkTrajectory path({}, std::span(&goal, 1));
   const double T = path.duration_s();
-  EXPECT_NEAR(T, 1.875 * 2.0 / 1.0, 1e-3) << "peak speed is 15/8 of the mean";
+  EXPECT_NEAR(T, 1.875 * 2.0 / 1.0, 1e-9) << "peak speed is 15/8 of the mean";
   for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0}) {
     const double expected = 2.0 * (10.0 * s * s * s - 15.0 * s * s * s * s + 6.0 * std::pow(s, 5));
     EXPECT_NEAR(path.at(s * T).p_world_m.x(), expected, 1e-9) << s;
+    EXPECT_NEAR(path.at(s * T).yaw_rad, 0.0, 1e-12) << s;
   }
 }
 
@@ -230,6 +234,73 @@ TEST(MinimumJerkTrajectory, TimesAStartTooFastForItsPathAsIfItBrakedAllTheWay) {
   EXPECT_NEAR(shares[1],
               (1.0 - std::sqrt(1.0 - 2.0 * a * 0.2)) / (1.0 - std::sqrt(1.0 - 2.0 * a * 0.35)),
               1e-9);
+}
+
+/// Jerk is of second order in time between two knots: three of its values tell it and its slope at
+/// a knot, from either side.
+TEST(MinimumJerkTrajectory, ItsSnapIsContinuousFromAStartInMotion) {
+  FlightReference start;
+  start.p_world_m = {0.0, 0.0, 1.0};
+  start.v_world_m_s = {0.3, -0.2, 0.1};
+  start.a_world_m_s2 = {-0.2, 0.1, 0.3};
+  constexpr double kStep_s = 0.02;
+  for (const std::size_t count : {std::size_t{2}, std::size_t{6}}) {
+    const MinimumJerkTrajectory path(start, random_waypoints(count, 8));
+    double greatest = 0.0;
+    for (std::size_t i = 1; i < count; ++i) {
+      const auto jerk_and_snap = [&](double side) {
+        std::array<Eigen::Vector3d, 3> j;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double off_s = side * kStep_s * static_cast<double>(k + 1);
+          j[k] = path.at(path.knots_s()[i] + off_s).j_world_m_s3;
+        }
+        const Eigen::Vector3d snap = (-2.5 * j[0] + 4.0 * j[1] - 1.5 * j[2]) / (side * kStep_s);
+        return std::pair<Eigen::Vector3d, Eigen::Vector3d>(3.0 * j[0] - 3.0 * j[1] + j[2], snap);
+      };
+      const auto [jerk_before, snap_before] = jerk_and_snap(-1.0);
+      const auto [jerk_after, snap_after] = jerk_and_snap(1.0);
+      EXPECT_LT((jerk_after - jerk_before).norm(), 1e-7) << i << " of " << count;
+      EXPECT_LT((snap_after - snap_before).norm(), 1e-6) << i << " of " << count;
+      greatest = std::max(greatest, snap_before.norm());
+    }
+    EXPECT_GT(greatest, 1e-2) << count;
+  }
+}
+
+TEST(MinimumJerkTrajectory, AWaypointHalfWayChangesNothing) {
+  const MinimumJerkTrajectory path({}, along_x({1.0, 2.0}));
+  const double T = path.duration_s();
+  EXPECT_NEAR(path.knots_s()[1], 0.5 * T, 1e-7);
+  for (const double s : {0.25, 0.5, 0.75}) {
+    const double expected = 2.0 * (10.0 * s * s * s - 15.0 * s * s * s * s + 6.0 * std::pow(s, 5));
+    EXPECT_NEAR(path.at(s * T).p_world_m.x(), expected, 1e-7) << s;
+  }
+}
+
+TEST(MinimumJerkTrajectory, TakesNoLongerThanItsLimitsAsk) {
+  EXPECT_NEAR(MinimumJerkTrajectory({}, along_x({0.002})).duration_s(), 0.1, 1e-12)
+      << "it is at three quarters of what they allow";
+}
+
+/// From 2 m/s, which no stretching makes less: its time is that of the trapezoid from 1 m/s on.
+TEST(MinimumJerkTrajectory, AStartBeyondTheLimitsIsNotStretchedForNothing) {
+  FlightReference start;
+  start.v_world_m_s = {2.0, 0.0, 0.0};
+  const MinimumJerkTrajectory path(start, along_x({4.0}));
+  EXPECT_NEAR(path.duration_s(), 4.0 - 0.5 / 1.4 + 1.0 / 1.4, 1e-7);
+}
+
+/// From 0.5 m/s over 0.4 m: half of 0.25 m^2/s^2 and 1.4 m/s^2 times the way are its fastest,
+/// squared.
+TEST(MinimumJerkTrajectory, TimesAShortPathFromAStartInMotion) {
+  FlightReference start;
+  start.v_world_m_s = {0.5, 0.0, 0.0};
+  const auto shares = shares_of(MinimumJerkTrajectory(start, along_x({0.2, 0.4})));
+  const double a = 1.4;
+  const double fastest = std::sqrt(0.685);
+  const double up_m = (0.685 - 0.25) / (2.0 * a);
+  const double at_knot = std::sqrt(0.685 - 2.0 * a * (0.2 - up_m));
+  EXPECT_NEAR(shares[1], (2.0 * fastest - 0.5 - at_knot) / (2.0 * fastest - 0.5), 1e-7);
 }
 
 }  // namespace

@@ -5,7 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "tests/support/temporary_directory.hpp"
@@ -218,6 +222,114 @@ TEST_F(AtomicFile, IsReadWholeWhateverItsSize) {
     write_file(directory / "f", content);
     EXPECT_TRUE(read_file(directory / "f") == content) << size;
   }
+}
+
+TEST_F(AtomicFile, ErrorsSayWhyTheSystemRefuses) {
+  EXPECT_EQ(message_of([&] { read_file(directory / "missing"); }),
+            (directory / "missing").string() + ": cannot read: No such file or directory");
+  const fs::path path = directory / "missing" / "f.txt";
+  EXPECT_EQ(message_of([&] { write_file(path, "x"); }),
+            path.string() + ": cannot write: No such file or directory");
+}
+
+/// What another call has left in errno is no reason.
+TEST_F(AtomicFile, ErrorsWithoutAReasonOfTheSystemSaySo) {
+  const std::string refused = (directory / "f").string() + ": cannot write: write failed";
+  GrowingFile file(directory / "f");
+  file.commit();
+  errno = EACCES;
+  EXPECT_EQ(message_of([&] { file.write("late"); }), refused);
+  errno = EACCES;
+  EXPECT_EQ(message_of([&] { file.commit(); }), refused);
+  const auto fails = [](const fs::path&) { return false; };
+  errno = EACCES;
+  EXPECT_EQ(message_of([&] { write_file_with(directory / "f", fails); }), refused);
+}
+
+TEST_F(AtomicFile, GrowingFileWithoutItsDirectoryDoesNotBegin) {
+  EXPECT_THROW(GrowingFile(directory / "missing" / "f"), OutputError);
+}
+
+/// No process has memory at address 0.
+TEST_F(AtomicFile, AReadThatFailsOnTheWayIsAnInputError) {
+  EXPECT_THROW(read_file("/proc/self/mem"), InputError);
+}
+
+TEST_F(AtomicFile, GrowingFileThatIsDoneLeavesTheNextOfItsNameAlone) {
+  auto first = std::make_unique<GrowingFile>(directory / "f");
+  first->write("old");
+  first->commit();
+  GrowingFile second(directory / "f");
+  second.write("new");
+  first.reset();
+  second.commit();
+  EXPECT_EQ(read_file(directory / "f"), "new");
+}
+
+bool writes_x(const fs::path& part) {
+  write_raw(part, "x");
+  return true;
+}
+
+TEST_F(AtomicFile, LeavesNoFileOpen) {
+  const auto open_now = [] { return std::distance(fs::directory_iterator("/proc/self/fd"), {}); };
+  const auto before = open_now();
+  write_file(directory / "f", "x");
+  write_file_with(directory / "g", writes_x);
+  EXPECT_EQ(open_now(), before);
+}
+
+/// Its number, 0, is then that of the next file.
+TEST_F(AtomicFile, StandardInputMayBeClosed) {
+  const auto action = [&] {
+    ::close(STDIN_FILENO);
+    write_file_with(directory / "f", writes_x);
+  };
+  EXPECT_EQ(outcome_on_full_disk(RLIM_INFINITY, action), 1);
+  EXPECT_EQ(read_file(directory / "f"), "x");
+}
+
+/// Where no more files can be opened, nothing can be told to be on the disk.
+TEST_F(AtomicFile, WhatMayNotBeOnTheDiskIsNotPublished) {
+  const auto open_no_more = [] {
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_NOFILE, &none);
+  };
+  const auto foreign = [&] {
+    write_file_with(directory / "f", [&](const fs::path& part) {
+      write_raw(part, "x");
+      open_no_more();
+      return true;
+    });
+  };
+  EXPECT_EQ(outcome_on_full_disk(RLIM_INFINITY, foreign), 0);
+  const auto growing = [&] {
+    GrowingFile file(directory / "f");
+    file.write("x");
+    open_no_more();
+    file.commit();
+  };
+  EXPECT_EQ(outcome_on_full_disk(RLIM_INFINITY, growing), 0);
+  EXPECT_TRUE(directory.is_empty());
+}
+
+TEST(TemporaryPlace, IsTheFolderThatTheVariableNames) {
+  const support::TemporaryDirectory folder;
+  const char* set = std::getenv("TMPDIR");
+  const auto before = set != nullptr ? std::optional<std::string>(set) : std::nullopt;
+  ::setenv("TMPDIR", folder.path().c_str(), 1);
+  EXPECT_EQ(message_of([] { (void)temporary_place(); }), "");
+  const fs::path place = temporary_place();
+  const std::string none = (folder / "none").string();
+  ::setenv("TMPDIR", none.c_str(), 1);
+  const std::string refusal = message_of([] { (void)temporary_place(); });
+  if (before) {
+    ::setenv("TMPDIR", before->c_str(), 1);
+  } else {
+    ::unsetenv("TMPDIR");
+  }
+  EXPECT_EQ(place, folder.path());
+  EXPECT_EQ(refusal.find("TMPDIR: " + none + ": "), 0U) << refusal;
 }
 
 }  // namespace

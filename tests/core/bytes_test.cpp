@@ -99,5 +99,13 @@ TEST(ByteReader, WhatIsLeftIsTooMuch) {
   EXPECT_NO_THROW(reader.finish());
 }
 
+TEST(ByteReader, ATextMayEndWhereTheBytesDo) {
+  std::string bytes;
+  put_text(bytes, "abc");
+  ByteReader reader(bytes, "x.bin");
+  EXPECT_EQ(reader.text("the text"), "abc");
+  EXPECT_NO_THROW(reader.finish());
+}
+
 }  // namespace
 }  // namespace vantage

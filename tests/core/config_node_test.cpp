@@ -69,6 +69,14 @@ TEST(LabelOf, TellsWhatIsNotTheDefault) {
   EXPECT_EQ(label_of("stomp", options(numbers({"1", "1", "0.5"}), "30"), usual),
             "stomp samples=30");
   EXPECT_EQ(label_of("stomp", options(numbers({"python3", "mine.py"}), "20"), usual), "stomp");
+  EXPECT_EQ(label_of("stomp", options(numbers({"python3", "2"}), "20"), usual), "stomp");
+}
+
+TEST(ConfigNode, IsOfNothingAtFirst) {
+  const ConfigNode node;
+  EXPECT_EQ(node.kind, ConfigNode::Kind::null);
+  EXPECT_FALSE(node.quoted);
+  EXPECT_FALSE(ConfigNode::make_scalar("1").quoted);
 }
 
 }  // namespace

@@ -98,5 +98,30 @@ TEST_F(DataRoot, WhatIsNotThereIsToldWithTheKey) {
       "scene: none/a.xml: no such file (looked in ., the working directory and " + data + ")");
 }
 
+/// Asked of a copy of this program, in <prefix>/bin as it is installed.
+TEST(InstalledDataRoot, IsBesideTheProgramIfThereAreModels) {
+  if (const char* answer = std::getenv("VANTAGE_TEST_ANSWER"); answer != nullptr) {
+    std::ofstream(answer) << data_root().string();
+    return;
+  }
+  const support::TemporaryDirectory prefix;
+  std::filesystem::create_directories(prefix / "bin");
+  std::filesystem::copy_file("/proc/self/exe", prefix / "bin/program");
+  const auto answer = [&] {
+    const std::string file = (prefix / "answer").string();
+    const std::string command = "env -u VANTAGE_DATA VANTAGE_TEST_ANSWER='" + file + "' '" +
+                                (prefix / "bin/program").string() +
+                                "' '--gtest_filter=InstalledDataRoot.*' > /dev/null";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    std::string told;
+    std::ifstream stream(file);
+    std::getline(stream, told);
+    return std::filesystem::path(told);
+  };
+  EXPECT_EQ(answer(), std::filesystem::path(VANTAGE_SOURCE_DIR));
+  std::filesystem::create_directories(prefix / "share/vantage/models");
+  EXPECT_EQ(answer(), std::filesystem::canonical(prefix.path()) / "share" / "vantage");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -150,7 +150,7 @@ TEST(Fields, RangesNameTheValueAndWhatIsAllowed) {
 TEST(Fields, ArraysHaveTheirSize) {
   EXPECT_EQ(error_of("size_m: [1, 2]\n"), "e.yaml:1: size_m: expected a list of 3, got 2");
   EXPECT_NE(error_of("size_m: [1, 2, 3, 4]\n"), "");
-  EXPECT_NE(error_of("size_m: 1\n"), "");
+  EXPECT_EQ(error_of("size_m: 1\n"), "e.yaml:1: size_m: expected a list of 3, got '1'");
 }
 
 TEST(Fields, CheckOfANestedStructNamesItsPlace) {
@@ -180,6 +180,9 @@ TEST(CheckOptions, FindsWhatWasFilledInFromCpp) {
   options = {};
   options.size_m[2] = -1.0;
   EXPECT_NE(message(options), "");
+  options = {};
+  options.inner.low = std::nan("");
+  EXPECT_EQ(message(options), "inner.low: nan is out of range, allowed: a finite number");
   options = {};
   options.inner.low = 5.0;
   EXPECT_EQ(message(options), "inner: low must be below high");
@@ -234,6 +237,59 @@ TEST(Fields, WhatIsWrongByAnOverrideInsideASectionNamesTheOverride) {
     ADD_FAILURE() << "accepted";
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(), "--set inner.high: inner.high must not be above 5");
+  }
+}
+
+TEST(CheckOptions, RunsTheCheckOfTheWholeAsWell) {
+  Outermost options;
+  EXPECT_NO_THROW(check_options(options));
+  options.inner.high = 9.0;
+  for (const std::string name : {"", "whole"}) {
+    try {
+      check_options(options, name);
+      ADD_FAILURE() << "accepted";
+    } catch (const ConfigError& error) {
+      const std::string front = name.empty() ? "" : "whole: ";
+      EXPECT_EQ(error.what(), front + "inner.high must not be above 5");
+    }
+  }
+}
+
+/// With a key of the name that strategies have theirs under.
+struct NamedThing {
+  std::string name = "thing";
+  double size = 1.0;
+  void fields(auto&& f) {
+    f("name", name, "what it is called");
+    f("size", size, "how large it is");
+  }
+};
+
+TEST(Fields, ANameMakesNoStrategyOfASection) {
+  const auto problems = [](const std::string& yaml) {
+    NamedThing thing;
+    try {
+      read_into(parse_yaml(yaml, "e.yaml"), thing);
+    } catch (const ConfigError& error) {
+      return error.problems();
+    }
+    return std::vector<std::string>{};
+  };
+  const std::string unknown = ": siz: unknown key 'siz'; did you mean size? known here: name, size";
+  EXPECT_EQ(problems("siz: 1\n"), std::vector{"e.yaml:1" + unknown});
+  EXPECT_EQ(problems("name: [1]\nsiz: 1\n"),
+            (std::vector<std::string>{"e.yaml:1: name: expected text, got a list",
+                                      "e.yaml:2" + unknown}));
+  EXPECT_EQ(error_of("inner: {name: x}\n"),
+            "e.yaml:1: inner.name: unknown key 'name'; known here: low, high");
+}
+
+TEST(Fields, TextIsQuotedUnlessEveryReaderTakesItForText) {
+  for (const char* text : {"a", "Z9", "_a", "/a/b", "a.b-c", "a.", "a-", "nullx"}) {
+    EXPECT_FALSE(detail::write_value(std::string(text)).quoted) << text;
+  }
+  for (const char* text : {"", "-a", ".a", "a b", "a:b", "a,b", " a", "null", "Null", "NULL"}) {
+    EXPECT_TRUE(detail::write_value(std::string(text)).quoted) << text;
   }
 }
 

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <string>
+#include <thread>
 
 #include "tests/support/temporary_directory.hpp"
 #include "tests/support/terminal.hpp"
@@ -34,6 +36,7 @@ TEST_F(Log, VerbosityDecidesWhatTheConsoleShows) {
     log_warning("w");
     log_error("e");
     const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(text.find('\r'), std::string::npos) << "there is no bar in its way";
     return std::count(text.begin(), text.end(), '\n');
   };
   EXPECT_EQ(shown(Verbosity::quiet), 2);
@@ -130,6 +133,73 @@ TEST_F(Log, ALineOfTheConsoleIsItsLevelAndItsMessage) {
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(std::regex_replace(text, std::regex("\x1b\\[[0-9;]*m"), ""),
             "debug: d {not a format}\ninfo: i\nwarning: w\nerror: e\n");
+}
+
+TEST_F(Log, TheFileGetsAllHoweverQuietTheConsoleBecomes) {
+  const auto path = directory / "log.txt";
+  log_to_file(path);
+  set_verbosity(Verbosity::quiet);
+  testing::internal::CaptureStderr();
+  log_debug("detail");
+  log_info("notice");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  log_to_file({});
+  const std::string text = read_file(path);
+  EXPECT_NE(text.find("debug: detail\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("info: notice\n"), std::string::npos) << text;
+}
+
+TEST_F(Log, WithoutAFileNoneIsMade) {
+  const std::filesystem::path none = part_name({});
+  std::filesystem::remove(none);
+  log_to_file({});
+  EXPECT_FALSE(std::filesystem::exists(none));
+}
+
+/// The bar of a job that is half done, on a terminal as wide as that; 0: it does not tell.
+std::string half_done(const std::string& label, unsigned short columns) {
+  Progress progress(label, 4.0);
+  return support::shown_progress([&] { progress.update(2.0); }, columns);
+}
+
+TEST_F(Log, ABarHasThirtyPartsAndNoMoreThanALine) {
+  if (!support::has_terminals()) GTEST_SKIP() << "no /dev/pts here";
+  ::unsetenv("NO_COLOR");
+  const std::string bar = "scan [" + std::string(15, '#') + std::string(15, '.') + "]  50 % ";
+  EXPECT_EQ(half_done("scan", 250), "\r" + bar + "\x1b[K");
+  EXPECT_EQ(half_done("scan", 20), "\r" + bar.substr(0, 19) + "\x1b[K");
+  EXPECT_EQ(half_done(std::string(100, 'x'), 0), "\r" + std::string(79, 'x') + "\x1b[K");
+  EXPECT_EQ(half_done(std::string(100, 'x'), 90), "\r" + std::string(89, 'x') + "\x1b[K");
+}
+
+/// What is not shown takes no bar away.
+TEST_F(Log, ALineTakesThePlaceOfTheBar) {
+  if (!support::has_terminals()) GTEST_SKIP() << "no /dev/pts here";
+  ::unsetenv("NO_COLOR");
+  Progress progress("scan", 4.0);
+  const std::string shown = support::shown_progress([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));  // until one is due
+    progress.update(2.0);
+    log_debug("hidden");
+    log_info("told");
+    log_info("again");
+  });
+  std::string text = std::regex_replace(shown, std::regex("\x1b\\[[0-9;]*m"), "");
+  text = std::regex_replace(text, std::regex("\r\n"), "\n");
+  EXPECT_NE(text.find("50 % \x1b[K\r\x1b[Kinfo: told\ninfo: again\n"), std::string::npos) << text;
+}
+
+/// And what shows no bar ends none.
+TEST_F(Log, ABarEndsItsLineOnce) {
+  if (!support::has_terminals()) GTEST_SKIP() << "no /dev/pts here";
+  ::unsetenv("NO_COLOR");
+  const std::string shown = support::shown_progress([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));  // until one is due
+    Progress("scan", 4.0).update(2.0);
+    const Progress none("none", 4.0);
+  });
+  EXPECT_EQ(std::regex_replace(shown, std::regex("\r\n"), "\n"),
+            "\rscan [" + std::string(15, '#') + std::string(15, '.') + "]  50 % \x1b[K\n");
 }
 
 }  // namespace

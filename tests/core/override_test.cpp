@@ -58,6 +58,7 @@ TEST(Override, IsNamedInErrors) {
   const ConfigNode root = overridden("a:\n  b: 1\n", "a.b=[1, {c: 2}]");
   const ConfigNode& value = *root.find("a")->find("b");
   EXPECT_EQ(value.where(), "--set: a.b");
+  EXPECT_EQ(value.items[0].where(), "--set: a.b[0]");
   EXPECT_EQ(value.items[1].find("c")->where(), "--set: a.b[1].c");
 }
 
@@ -81,6 +82,7 @@ TEST(Override, AKeyHasOneValue) {
   apply_overrides(root, {"a=1", "a=1"});
   EXPECT_EQ(to_yaml(root), "a: 1\n");
   EXPECT_THROW(apply_overrides(root, {"a=1", "a=2"}), ConfigError);
+  EXPECT_THROW(apply_overrides(root, {"b=1", "a=1", "a=2"}), ConfigError);
   EXPECT_THROW(apply_overrides(root, {"gain.name=simple", "gain=fsmi"}), ConfigError);
   EXPECT_THROW(apply_overrides(root, {"gain={name: fsmi, d: 2}", "gain.d=3"}), ConfigError);
   ConfigNode refined;
@@ -126,6 +128,16 @@ TEST(Override, OfTwoValuesSaysWhereBothAreUnlessThatIsOnePlace) {
   EXPECT_EQ(refusal({{"a", *study.find("x")}, {"a", *study.find("y")}}),
             "s.yaml:2: y: set twice, to different values, also at s.yaml:1");
   EXPECT_EQ(refusal({{"a", *study.find("x")}, {"a", *study.find("x")}}), "none");
+}
+
+TEST(Override, MapsThatItMakesAreItsOwn) {
+  const ConfigNode root = overridden("", "a.b.c=1");
+  EXPECT_EQ(root.find("a")->where(), "--set: a");
+  EXPECT_EQ(root.find("a")->find("b")->where(), "--set: a.b");
+}
+
+TEST(Override, TheNameOfTheWholeTakesNothingAway) {
+  EXPECT_EQ(result("name: a\nb: 1\n", "name=c"), "name: c\nb: 1\n");
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ TEST(BackgroundWork, DoesEachPartOnce) {
 TEST(BackgroundWork, InFrontOnlyBeginsWhenItIsToBeFinished) {
   std::vector<std::size_t> done;
   BackgroundWork work(parts_of(3, [&](std::size_t i) { done.push_back(i); }), false);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_TRUE(done.empty());
   work.finish();
   EXPECT_EQ(done, (std::vector<std::size_t>{0, 1, 2}));
@@ -141,6 +142,58 @@ TEST(BackgroundWork, ThrowsWhereItIsAskedFor) {
     EXPECT_THROW(work.finish(), std::runtime_error);
     EXPECT_LE(begun, 2);
   }
+}
+
+/// Each waits a while for one that must not come.
+TEST(ParallelFor, OnOneThreadBeginsNothingBeforeTheLastIsDone) {
+  for (const std::size_t count : {2U, 3U}) {
+    std::atomic<int> busy{0};
+    parallel_for(count, 1, [&](std::size_t) {
+      ++busy;
+      for (int i = 0; i < 20; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_EQ(busy, 1);
+      }
+      --busy;
+    });
+  }
+}
+
+TEST(BackgroundWork, BeginsNothingAfterAPartHasFailed) {
+  int begun = 0;
+  const auto fail = [&](std::size_t) {
+    ++begun;
+    throw std::runtime_error("no memory");
+  };
+  BackgroundWork work(parts_of(3, fail), false);
+  EXPECT_THROW(work.finish(), std::runtime_error);
+  EXPECT_NO_THROW(work.finish());
+  EXPECT_EQ(begun, 1);
+}
+
+TEST(BackgroundWork, ThrowsWhatTheOtherThreadThrew) {
+  std::atomic<int> begun{0};
+  const auto fail = [&](std::size_t) {
+    ++begun;
+    throw std::runtime_error("no memory");
+  };
+  BackgroundWork work(parts_of(1, fail), true);
+  wait_until(begun, 1);
+  EXPECT_THROW(work.finish(), std::runtime_error);
+}
+
+TEST(BackgroundWork, IsFinishedOnceTheOtherThreadIs) {
+  std::atomic<int> begun{0};
+  std::atomic<int> ended{0};
+  const auto slow = [&](std::size_t) {
+    ++begun;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ++ended;
+  };
+  BackgroundWork work(parts_of(1, slow), true);
+  wait_until(begun, 1);
+  work.finish();
+  EXPECT_EQ(ended, 1);
 }
 
 }  // namespace

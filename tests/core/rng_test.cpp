@@ -132,5 +132,40 @@ TEST(RngDeathTest, UniformIndexOfNothing) {
   EXPECT_DEATH(Rng(1).uniform_index(0), "uniform_index of an empty range");
 }
 
+/// Two numbers of each pair of coordinates, in their order.
+TEST(Rng, NormalNumbersComeInPairs) {
+  Rng rng(8);
+  Rng same(8);
+  for (int pair = 0; pair < 50; ++pair) {
+    double u = 0.0;
+    double v = 0.0;
+    do {
+      u = 2.0 * same.uniform() - 1.0;
+      v = 2.0 * same.uniform() - 1.0;
+    } while (u * u + v * v >= 1.0);
+    const double s = u * u + v * v;
+    const double scale = std::sqrt(-2.0 * std::log(s) / s);
+    EXPECT_DOUBLE_EQ(rng.normal(), u * scale);
+    EXPECT_DOUBLE_EQ(rng.normal(), v * scale);
+  }
+}
+
+/// But for those numbers that would give the first of the range more than their share.
+TEST(Rng, UniformIndexIsTheRestOfTheNextNumber) {
+  for (const std::uint64_t count : {1ULL, 7ULL, (1ULL << 32U) + 1, (1ULL << 63U) - 1}) {
+    Rng rng(9);
+    Rng same(9);
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(rng.uniform_index(count), same.next() % count) << count;
+  }
+  constexpr std::uint64_t kRange = 3ULL << 62U;
+  Rng rng(9);
+  Rng same(9);
+  for (int i = 0; i < 100; ++i) {
+    std::uint64_t next = same.next();
+    while (next >= kRange) next = same.next();
+    EXPECT_EQ(rng.uniform_index(kRange), next);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -207,5 +207,78 @@ TEST(Schema, CommentsAreAsWideAsAHundredCharacters) {
   EXPECT_EQ(comments("b.c", 47, 49), 2);
 }
 
+KeyDescription key_that(const std::string& key, const std::string& text) {
+  KeyDescription description;
+  description.key = key;
+  description.text = text;
+  return description;
+}
+
+TEST(Schema, KeysBelongToStrategiesThatWereChosen) {
+  KeyDescription key = key_that("a", "of it");
+  key.owners = {KeyDescription::Owner{"way", "fading"}};
+  const auto commented = [&](const std::string& yaml) {
+    return commented_yaml(parse_yaml(yaml, "e.yaml"), {key});
+  };
+  EXPECT_EQ(commented("a: 1\n"), "a: 1\n");
+  EXPECT_EQ(commented("way: plain\na: 1\n"), "way: plain\na: 1\n");
+  EXPECT_EQ(commented("way: fading\na: 1\n"), "way: fading\n# of it\na: 1\n");
+  key.owners = {KeyDescription::Owner{"way", "fading"}, KeyDescription::Owner{"other", "plain"}};
+  const std::string two = "way: fading\nother: fading\na: 1\n";
+  EXPECT_EQ(commented(two), two) << "of both it is neither's";
+  EXPECT_EQ(commented("way: fading\nother: plain\na: 1\n"),
+            "way: fading\nother: plain\n# of it\na: 1\n");
+}
+
+TEST(Schema, ALineWithoutAKeyHasNoComment) {
+  EXPECT_EQ(commented_yaml(parse_yaml("a\n", "e.yaml"), {key_that("a", "none")}), "a\n");
+}
+
+TEST(Schema, KeysInsideAListHaveNoComments) {
+  const std::vector<KeyDescription> keys{key_that("others.a", "none"), key_that("a", "none"),
+                                         key_that("b", "after it")};
+  EXPECT_EQ(commented_yaml(parse_yaml("others: [{name: x, a: 1}]\nb: 2\n", "e.yaml"), keys),
+            "others:\n  - name: x\n    a: 1\n# after it\nb: 2\n");
+  EXPECT_EQ(commented_yaml(parse_yaml("[{a: 1}, {a: 2}]\n", "e.yaml"), keys), "- a: 1\n- a: 2\n");
+}
+
+/// Indented by sixty.
+TEST(Schema, CommentsHaveFortyCharactersHoweverDeepTheyStand) {
+  std::string yaml;
+  std::string path;
+  for (std::size_t depth = 0; depth < 30; ++depth) {
+    yaml += std::string(2 * depth, ' ') + "k:\n";
+    path += "k.";
+  }
+  const ConfigNode root = parse_yaml(yaml + std::string(60, ' ') + "a: 1\n", "e.yaml");
+  for (const std::size_t second : {20U, 21U}) {
+    const std::string words = std::string(19, 'x') + ' ' + std::string(second, 'y');
+    const std::string text = commented_yaml(root, {key_that(path + "a", words)});
+    EXPECT_EQ(std::count(text.begin(), text.end(), '#'), second == 20 ? 1 : 2) << second;
+  }
+}
+
+struct Shelves {
+  std::optional<Part> top;
+  std::vector<Part> boards;
+  void fields(auto&& f) {
+    f("top", top, "if there is one");
+    f("boards", boards, "below it");
+  }
+};
+
+TEST(Schema, SectionsThatMayBeThereAreDescribedToo) {
+  const auto keys = describe_fields(Shelves{});
+  std::vector<std::string> names;
+  for (const auto& key : keys) names.push_back(key.key);
+  EXPECT_THAT(names, testing::ElementsAre("top", "top.size_m", "top.all", "boards",
+                                          "boards[].size_m", "boards[].all"));
+  EXPECT_EQ(of(keys, "top").type, "section, or null");
+  EXPECT_EQ(of(keys, "top").default_value, "null");
+  EXPECT_FALSE(of(keys, "top").section);
+  EXPECT_EQ(of(keys, "boards").type, "list of section");
+  EXPECT_EQ(of(keys, "boards").default_value, "[]");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -43,6 +43,7 @@ TEST(Yaml, EveryQuotedOrBlockScalarIsText) {
 
 TEST(Yaml, NothingIsNull) {
   EXPECT_EQ(parse("").kind, ConfigNode::Kind::null);
+  EXPECT_EQ(parse("").where(), "e.yaml");
   EXPECT_EQ(parse("# only a comment\n").kind, ConfigNode::Kind::null);
 }
 
@@ -104,6 +105,8 @@ TEST(Yaml, ReadsFiles) {
 TEST(Yaml, WritesWhatItReads) {
   const std::string text = "a: 1\nb: [1, 2.5]\nc:\n  d: \"1\"\n  e: []\nf: ~\n";
   EXPECT_EQ(to_yaml(parse(text)), text);
+  const std::string mixed = "a:\n  - 1\n  - b: 2\n";
+  EXPECT_EQ(to_yaml(parse(mixed)), mixed);
 }
 
 // Any text at all, however much it looks like a number, null, a date, a comment or syntax.

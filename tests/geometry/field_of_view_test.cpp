@@ -179,5 +179,16 @@ RC_GTEST_PROP(FieldOfView, IsInItsBoxAndReachesItsSides, (std::uint64_t seed)) {
   RC_ASSERT(held.min().z() - box.min().z() < slack_m);
 }
 
+/// A point off the y axis by less than an angle can tell is still behind.
+TEST(FieldOfView, HalfATurnWideItDoesNotSeeBehind) {
+  const FieldOfView view{.half_width_rad = std::numbers::pi / 2.0};
+  EXPECT_TRUE(view.contains({0, 1, 0}));
+  EXPECT_FALSE(view.contains({-1e-20, 1, 0}));
+  EXPECT_FALSE(view.contains({-1e-20, -1, 0}));
+  const Eigen::AlignedBox3d box = view.box_m();
+  EXPECT_EQ(box.min(), Eigen::Vector3d(-10, -10, -10));
+  EXPECT_EQ(box.max(), Eigen::Vector3d(10, 10, 10));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -149,5 +149,48 @@ TEST(FloorOutline, GrownGoesOutByTheMarginToAllFourSides) {
   EXPECT_LT((high - Eigen::Vector2d(1.25, 1.25)).norm(), 1e-12);
 }
 
+TEST(ConvexOutline, HasEachCornerOfATriangle) {
+  const FloorOutline above{{0.0, 0.0}, {4.0, 0.0}, {3.0, 2.0}};
+  EXPECT_EQ(convex_outline({{3.0, 2.0}, {0.0, 0.0}, {4.0, 0.0}}), above);
+  const FloorOutline below{{0.0, 0.0}, {3.0, -2.0}, {4.0, 0.0}};
+  EXPECT_EQ(convex_outline({{4.0, 0.0}, {3.0, -2.0}, {0.0, 0.0}}), below);
+}
+
+TEST(FloorOutline, ThatIsSmallHasSmallDiscs) {
+  const FloorOutline small{{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}};
+  EXPECT_NEAR(inscribed_radius_m(small), 0.1, 1e-15);
+  EXPECT_NEAR(circumscribed_radius_m(small), 0.1 * std::numbers::sqrt2, 1e-15);
+}
+
+using FloorRows = std::vector<std::array<int, 3>>;
+
+FloorRows rows_inside(const FloorOutline& outline, double spacing_m) {
+  FloorRows rows;
+  for_each_row_inside(outline, {0.0, 0.0}, spacing_m, [&](int row, int first, int last) {
+    rows.push_back({row, first, last});
+  });
+  return rows;
+}
+
+TEST(FloorOutline, ACornerIsARowOfOnePoint) {
+  const FloorOutline triangle{{0.0, 0.0}, {4.0, 0.0}, {2.0, 2.0}};
+  EXPECT_EQ(rows_inside(triangle, 1.0), (FloorRows{{0, 0, 4}, {1, 1, 3}, {2, 2, 2}}));
+}
+
+/// By division its upper edge is in row 17, which by multiplication lies a rounding above it; the
+/// lower edge of the other in row 9, which lies below it.
+TEST(FloorOutline, ARowThatIsRoundedOffItIsNone) {
+  constexpr double kHigh_m = 1.7;
+  ASSERT_EQ(std::floor(kHigh_m / 0.1), 17.0);
+  ASSERT_GT(17 * 0.1, kHigh_m);
+  const FloorOutline oblong{{0.05, 1.55}, {0.35, 1.55}, {0.35, kHigh_m}, {0.05, kHigh_m}};
+  EXPECT_EQ(rows_inside(oblong, 0.1), (FloorRows{{16, 1, 3}}));
+  constexpr double kLow_m = 0.9000000000000001;
+  ASSERT_EQ(std::ceil(kLow_m / 0.1), 9.0);
+  ASSERT_LT(9 * 0.1, kLow_m);
+  const FloorOutline other{{0.05, kLow_m}, {0.35, kLow_m}, {0.35, 1.15}, {0.05, 1.15}};
+  EXPECT_EQ(rows_inside(other, 0.1), (FloorRows{{10, 1, 3}, {11, 1, 3}})) << "those above it stay";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -75,5 +75,16 @@ TEST(SweepImages, TheNearestIsTheOneThatLooksMostDirectly) {
   EXPECT_EQ(images.nearest({0.0, 0.0, 1.0}), 0U) << "of equals the first";
 }
 
+TEST(SweepImages, ShowTheirEdgesButNothingAtTheCamera) {
+  const SweepImages images = eight();
+  EXPECT_TRUE(images.shows(1, {2.0, 2.0, 0.0}));
+  EXPECT_TRUE(images.shows(1, {2.0, -2.0, 0.0}));
+  EXPECT_TRUE(images.shows(1, {2.0, 0.0, 2.0}));
+  EXPECT_TRUE(images.shows(1, {2.0, 0.0, -2.0}));
+  EXPECT_FALSE(images.shows(1, {2.0, 2.001, 0.0}));
+  EXPECT_FALSE(images.shows(1, {2.0, 0.0, 2.001}));
+  EXPECT_FALSE(images.shows(1, {0.0, 0.0, 0.0}));
+}
+
 }  // namespace
 }  // namespace vantage

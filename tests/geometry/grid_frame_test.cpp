@@ -152,5 +152,23 @@ RC_GTEST_PROP(ClipSegment, PartInsideIsInside, (std::uint64_t seed)) {
   }
 }
 
+TEST(ClipSegment, AlongAnAxisTheOthersCountToo) {
+  const auto up = clip_segment(kUnit, {0.5, 0.5, -1}, {0.5, 0.5, 3});
+  EXPECT_DOUBLE_EQ(up.enter, 0.25);
+  EXPECT_DOUBLE_EQ(up.leave, 0.5);
+  const auto left = clip_segment(kUnit, {0.5, -1, 0.5}, {0.5, 3, 0.5});
+  EXPECT_DOUBLE_EQ(left.enter, 0.25);
+  EXPECT_DOUBLE_EQ(left.leave, 0.5);
+  EXPECT_TRUE(clip_segment(kUnit, {0.5, -1, 2}, {0.5, 3, 2}).empty());
+}
+
+TEST(ClipSegment, OfAMissNothingIsLeft) {
+  const auto beside = clip_segment(kUnit, {-1, 2, 0.5}, {3, 2, 0.5});
+  EXPECT_EQ(beside.enter, 1.0);
+  EXPECT_EQ(beside.leave, 0.0);
+  EXPECT_EQ(SegmentClip{}.enter, 0.0);
+  EXPECT_EQ(SegmentClip{}.leave, 1.0);
+}
+
 }  // namespace
 }  // namespace vantage

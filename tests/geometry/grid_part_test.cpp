@@ -63,5 +63,12 @@ TEST(CellsAbout, AreNoneOfABoxOutsideTheGridOrOfNothing) {
   EXPECT_EQ(cells_about(frame(), Eigen::AlignedBox3d()).size(), 0U);
 }
 
+TEST(CellsAbout, OfAGridOfOneCellAreThatCell) {
+  const GridFrame one = make_grid_frame({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {1, 1, 1});
+  const GridPart part = cells_about(one, one.box());
+  EXPECT_TRUE((part.begin == 0).all()) << part.begin.transpose();
+  EXPECT_TRUE((part.count == 1).all()) << part.count.transpose();
+}
+
 }  // namespace
 }  // namespace vantage

@@ -121,5 +121,16 @@ TEST(FacingSamples, FromBelowTheHeightOfItsMiddleOnlyTheSide) {
   EXPECT_EQ(facing_samples(kCan, {3.0, -1.0, 0.77}).size(), 60U);
 }
 
+TEST(UprightCylinder, ItsSurfaceBelongsToIt) {
+  const UprightCylinder cylinder{{0.0, 0.0, 0.0}, 1.0, 2.0};
+  EXPECT_TRUE(cylinder.contains({1.0, 0.0, 1.0}));
+  EXPECT_FALSE(cylinder.contains({1.01, 0.0, 1.0}));
+  EXPECT_TRUE(cylinder.contains({0.0, 0.0, 0.0}));
+  EXPECT_TRUE(cylinder.contains({0.0, 0.0, 2.0}));
+  EXPECT_TRUE(cylinder.contains({0.0, 1.5, 1.0}, 0.5));
+  EXPECT_TRUE(cylinder.contains({0.0, 0.0, -0.5}, 0.5));
+  EXPECT_TRUE(cylinder.contains({0.0, 0.0, 2.5}, 0.5));
+}
+
 }  // namespace
 }  // namespace vantage

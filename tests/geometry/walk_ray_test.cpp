@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -195,6 +196,32 @@ RC_GTEST_PROP(WalkRay, EndsInTheCellOfItsEnd, (std::uint64_t seed)) {
   RC_ASSERT(!cells.empty());
   // On the outer face the clip may count rounding as leaving the box just before the end.
   if ((corner > 0).all()) RC_ASSERT(cells.back() == grid.index(grid.cell_at(to)));
+}
+
+/// Of faces that are met at once that across y comes first, and that across z last.
+TEST(WalkRay, ThroughCornersStepsInThisOrder) {
+  const GridFrame grid = make_grid_frame({1.5, 1.5, 1.5}, {3, 3, 3}, {3, 3, 3});
+  std::vector<std::size_t> expected;
+  for (const Eigen::Array3i& cell : {Eigen::Array3i(0, 0, 0),
+                                     {0, 1, 0},
+                                     {1, 1, 0},
+                                     {1, 1, 1},
+                                     {1, 2, 1},
+                                     {2, 2, 1},
+                                     {2, 2, 2}}) {
+    expected.push_back(grid.index(cell));
+  }
+  EXPECT_EQ(walk(grid, {0, 0, 0}, {2.5, 2.5, 2.5}), expected);
+}
+
+TEST(WalkRay, HasNoStepsAlongAnAxisAtFirst) {
+  const AxisWalk along;
+  EXPECT_EQ(along.cell, 0);
+  EXPECT_EQ(along.goal, 0);
+  EXPECT_EQ(along.step, 0);
+  EXPECT_EQ(along.stride, 0);
+  EXPECT_TRUE(std::isinf(along.t_next));
+  EXPECT_EQ(along.t_delta, 0.0);
 }
 
 }  // namespace

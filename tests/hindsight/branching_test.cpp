@@ -8,7 +8,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/hindsight/short_run.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -88,12 +92,29 @@ TEST_F(Branches, OfAllViewsAreWhatRunsBring) {
 TEST_F(Branches, OfAProcessThatHasThreadsAreTheSame) {
   const RecordedRun run = recorded({"scans=3"});
   const BranchRequest request{.scans = {1}, .all = false, .view = 9};
-  const auto forked = branch_views(run, request);
+  const auto told_by = [&](std::vector<BranchedDecision>& decisions) {
+    set_verbosity(Verbosity::verbose);
+    testing::internal::CaptureStderr();
+    decisions = branch_views(run, request);
+    set_verbosity(Verbosity::quiet);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::filesystem::directory_iterator threads("/proc/self/task");
+  const bool alone = std::distance(threads, {}) == 1;  // sanitizers have some of their own
+  std::vector<BranchedDecision> forked;
+  const std::string told_forked = told_by(forked);
   std::atomic<bool> over = false;
   std::jthread other([&] { over.wait(false); });
-  const auto repeated = branch_views(run, request);
+  std::vector<BranchedDecision> repeated;
+  const std::string told_repeated = told_by(repeated);
   over = true;
   over.notify_all();
+  const std::string repetition = "view 9 after scan 1: repeated";
+  EXPECT_EQ(told_forked.find(repetition) == std::string::npos, alone) << told_forked;
+  EXPECT_NE(told_repeated.find(repetition), std::string::npos) << told_repeated;
+  const std::string of_its_scan = "scan 2: view 9";
+  EXPECT_EQ(told_forked.find(of_its_scan) == std::string::npos, alone) << "a child says nothing";
+  EXPECT_NE(told_repeated.find(of_its_scan), std::string::npos) << told_repeated;
   EXPECT_EQ(branched_json(forked[0]), branched_json(repeated[0]));
   EXPECT_TRUE(repeated[0].branches[0].cells);
 }
@@ -178,6 +199,7 @@ TEST_F(Branches, EndWithTheEpisode) {
                                   static_cast<long long>(run.scans[2].cells_left));
   EXPECT_EQ(first.seconds_then, run.scans[2].time_s - run.scans[0].time_s);
   EXPECT_TRUE(first.planned_m);
+  EXPECT_GT(first.gain, 0.0);
   EXPECT_FALSE(decisions[1].branches[0].cells_then);
   EXPECT_EQ(decisions[1].branches[0].seconds_then, 0.0);
 }
@@ -296,6 +318,20 @@ TEST_F(Branches, OfARunThatWasChosenOutsideDoNotGoOn) {
               0U)
         << error.what();
   }
+}
+
+/// What the run did after the last decision that is asked for is not repeated, what it did before
+/// is.
+TEST_F(Branches, GoNoFartherThanTheLastDecision) {
+  RecordedRun run = recorded({"scans=3"});
+  run.scans[2].cells_left += 1;
+  ::unsetenv("LP_NUM_THREADS");
+  const auto decisions = branch_views(run, {.scans = {1}});
+  EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "0");
+  ASSERT_EQ(decisions.size(), 1U);
+  EXPECT_TRUE(decisions[0].branches.at(0).cells);
+  run.scans[0].cells_left += 1;
+  EXPECT_THROW(branch_views(run, {.scans = {1}}), ReplayDiffers);
 }
 
 }  // namespace

@@ -406,5 +406,33 @@ TEST(BranchedText, IsKeptBesideWhatTellsOfNoScan) {
   EXPECT_EQ(kept[4]["scan"], 5);
 }
 
+TEST(Regret, OfWhatBroughtNothingIsNone) {
+  BranchedDecision decision;
+  decision.branches = {branch_that(3, 0, 10.0), branch_that(5, 0, 5.0)};
+  decision.branches[0].chosen = true;
+  decision.branches[1].cells.reset();
+  const auto regret = regret_of(decision);
+  ASSERT_TRUE(regret);
+  EXPECT_EQ(regret->best_view, 3);
+  EXPECT_EQ(regret->cells, 0.0);
+  EXPECT_EQ(regret->fastest_view, 3);
+  EXPECT_EQ(regret->cells_per_s, 0.0);
+}
+
+/// 29 % of 100 cells are a rounding below 29.
+TEST(ProgressTo, CountsWholeCells) {
+  RecordedRun run;
+  run.observable_cells = 100;
+  run.scans.emplace_back().cells_left = 30;
+  EXPECT_EQ(progress_to(run, 71), std::nullopt);
+  run.scans.back().cells_left = 29;
+  EXPECT_TRUE(progress_to(run, 71));
+  run.observable_cells = 10;
+  run.scans.back().cells_left = 1;
+  EXPECT_EQ(progress_to(run, 97), std::nullopt) << "not one may be left";
+  run.scans.back().cells_left = 0;
+  EXPECT_TRUE(progress_to(run, 97));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/hindsight/short_run.hpp"
 #include "vantage/tasks/mapping/hindsight/view_coverage.hpp"
@@ -122,6 +126,50 @@ TEST_F(RunBounds, GiveAnyPolicyWhatTheMapHadBeyondItsScans) {
   EXPECT_EQ(after_one.first_scan.way_m, run.scans[0].path_length_m);
   EXPECT_EQ(after_one.first_scan.time_s, run.scans[0].time_s);
   EXPECT_FALSE(after_one.has_oracle_tour);
+}
+
+/// Where the trajectory of a run has the base at its scans.
+class ScanLines {
+ public:
+  explicit ScanLines(const RecordedRun& run) : file_(run.directory / "trajectory.tum") {
+    std::vector<std::pair<double, std::string>> lines;
+    std::ifstream stream(file_);
+    for (std::string line; std::getline(stream, line);) {
+      if (line.empty() || line.front() == '#') continue;
+      const std::size_t blank = line.find(' ');
+      lines.emplace_back(std::stod(line.substr(0, blank)), line.substr(blank));
+    }
+    for (const RecordedScan& scan : run.scans) {
+      std::size_t at = 0;
+      while (at + 1 < lines.size() && lines[at + 1].first <= scan.time_s + 1e-6) ++at;
+      places_.emplace_back(scan.time_s, lines.at(at).second);
+    }
+  }
+  /// At each scan its place, and a moment before and after it another.
+  void write(double later_s = 0.0) const {
+    std::ofstream stream(file_);
+    stream.precision(17);
+    for (const auto& [time_s, place] : places_) {
+      stream << later_s + time_s - 0.01 << " 2.5 2.5 0 0 0 0 1\n";
+      stream << later_s + time_s << place << "\n";
+      stream << later_s + time_s + 0.01 << " 2.5 2.5 0 0 0 0 1\n";
+    }
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::vector<std::pair<double, std::string>> places_;
+};
+
+TEST_F(RunBounds, TakeTheScansFromWhereTheBaseIsAtTheirEnd) {
+  const RecordedRun run =
+      support::short_run(folder.path() / "run", {"scans=3", "robot.start_view=3"});
+  const auto before = run_bound_json(bound_of_run(run));
+  const ScanLines lines(run);
+  lines.write();
+  EXPECT_EQ(run_bound_json(bound_of_run(run)), before);
+  lines.write(1000.0);
+  EXPECT_THROW(bound_of_run(run), InputError) << "it begins after the first scan";
 }
 
 }  // namespace

@@ -234,5 +234,22 @@ TEST(SignFlip, SignsOfDifferentValuesAreIndependent) {
   }
 }
 
+TEST(Bootstrap, OfOneValueIsThatValue) {
+  Rng rng(18);
+  const Interval interval = bootstrap_mean(std::array{3.5}, rng);
+  EXPECT_DOUBLE_EQ(interval.low, 3.5);
+  EXPECT_DOUBLE_EQ(interval.high, 3.5);
+}
+
+/// A quotient of sums, whatever their size.
+TEST(BootstrapRatio, OfOnePairIsItsQuotient) {
+  for (const double below : {0.5, 1.0, 2.0}) {
+    Rng rng(19);
+    const Interval interval = bootstrap_ratio(std::array{3.0}, std::array{below}, rng);
+    EXPECT_DOUBLE_EQ(interval.low, 3.0 / below);
+    EXPECT_DOUBLE_EQ(interval.high, 3.0 / below);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

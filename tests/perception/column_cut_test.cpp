@@ -309,5 +309,44 @@ TEST(PlaceOfColumn, HoldsEachCornerOfTheColumn) {
   EXPECT_EQ(place_of_column(images, turned, {0.5, 0.5, 0.5}, options), cv::Rect(223, 113, 85, 75));
 }
 
+/// The camera itself, 2 m above the table, would be in a column of 2.5 m.
+TEST(HeightsOver, WhatWasNotMeasuredIsNotAtTheCamera) {
+  CameraImages images;
+  images.width_px = 3;
+  images.height_px = 1;
+  images.focal_px = 10.0;
+  images.depth_m = {2.0F, 0.0F, 1.5F};
+  TablePlane table;
+  table.centroid_m = {0.0, 0.0, 0.5};
+  Patch patch{cv::Rect(0, 0, 3, 1), cv::Mat1f(1, 3)};
+  std::ranges::copy(images.depth_m, patch.depth_m.begin());
+  ObjectSegmentationOptions options;
+  options.radius_m = 1.0;
+  options.max_height_m = 2.5;
+  const cv::Mat1f heights_m =
+      heights_over(patch, images, overhead(), table, {0.0, 0.0, 0.5}, options);
+  EXPECT_NEAR(heights_m(0, 0), 0.0, 1e-6);
+  EXPECT_EQ(heights_m(0, 1), kOutside);
+  EXPECT_NEAR(heights_m(0, 2), 0.5, 1e-6);
+}
+
+TEST(CropToMask, EndsAtThePicturesBorder) {
+  ObjectView picture;
+  picture.width_px = 40;
+  picture.height_px = 30;
+  picture.left_px = 100;
+  picture.top_px = 50;
+  picture.depth_m.assign(1200, 1.0F);
+  picture.rgb.assign(3600, 9);
+  std::vector<std::uint8_t> mask(1200, 0);
+  mask.front() = mask.back() = 1;
+  const ObjectView view = crop_to_mask(picture, mask);
+  EXPECT_EQ(view.left_px, 100);
+  EXPECT_EQ(view.top_px, 50);
+  EXPECT_EQ(view.width_px, 40);
+  EXPECT_EQ(view.height_px, 30);
+  EXPECT_EQ(view.mask, mask);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -296,5 +296,39 @@ TEST(ObjectAmongOthers, ItsShapeIsFifteenMillimetresHighAtLeast) {
   EXPECT_NEAR(object.shape->radius_m, 0.0199 * std::hypot(4.5, 4.5), 1e-5);
 }
 
+/// Of the block's pixels the outermost 5.5 and 4.5 of them off its middle, 1.9 cm wide; without its
+/// four corners.
+TEST(ObjectAmongOthers, ItsOutlineIsThatOfItsPixelsFromAbove) {
+  const ObjectAmongOthers object = found(block_at(24, 20), above_table(0.0, 0.0));
+  ASSERT_TRUE(object.object.view) << object.object.reason;
+  ASSERT_EQ(object.outline.size(), 8U);
+  for (const Eigen::Vector2d& p : object.outline) {
+    const Eigen::Array2d px = (p - kTable_m.head<2>()).array().abs() / 0.019;
+    const bool beside = std::abs(px.x() - 5.5) < 1e-4 && std::abs(px.y() - 3.5) < 1e-4;
+    const bool above = std::abs(px.x() - 4.5) < 1e-4 && std::abs(px.y() - 4.5) < 1e-4;
+    EXPECT_TRUE(beside || above) << px.transpose();
+  }
+}
+
+/// Known to be 30 cm in radius, 6.5 px from the image's border: beside the block its top is not
+/// there, where the table is seen, or not shown.
+TEST(ObjectAmongOthers, WhatIsBeyondTheImageIsNotSeen) {
+  const Pose T_world_camera = above_table(0.46, 0.0);
+  const UprightCylinder known{kTable_m, 0.3, 0.1};
+  const ObjectAmongOthers object = found(block_at(1, 20), T_world_camera, known);
+  double seen = 0.0;
+  double beyond = 0.0;
+  for (const SurfaceSample& sample : facing_samples(known, T_world_camera.translation())) {
+    const Vector3d p = T_world_camera.inverse() * sample.p_world_m;
+    const double x = 100.0 * p.x() / p.z() + 29.5;
+    const double y = 100.0 * p.y() / p.z() + 24.5;
+    if (x < -0.5) beyond += sample.weight;
+    if (x > 0.5 && x < 12.5 && y > 19.5 && y < 29.5) seen += sample.weight;
+  }
+  ASSERT_GT(seen, 0.0);
+  ASSERT_GT(beyond, seen);
+  EXPECT_NEAR(object.seen_share, seen / (seen + beyond), 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

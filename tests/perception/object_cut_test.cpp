@@ -428,5 +428,39 @@ TEST(ObjectCut, SevenTenthsAreEnoughToSmoothTheRestAway) {
       210);
 }
 
+/// A hole above the smaller part and below the larger one is bridged as one beside them.
+TEST(ObjectCut, JoinsPartsAboveEachOtherToo) {
+  const auto pixels = [](int hole_px) {
+    return pixels_cut(before_a_wall(160, 120,
+                                    {{{60, 40, 30, 20}, 3.0F},
+                                     {{60, 60, 30, hole_px}, 0.0F},
+                                     {{60, 60 + hole_px, 30, 19}, 3.0F}}));
+  };
+  EXPECT_EQ(pixels(7), 600 + 210 + 570);
+  EXPECT_EQ(pixels(8), 600);
+}
+
+/// Two blocks of 140 px, between which the wall is seen.
+TEST(ObjectCut, GapsOfTwoPixelsAreClosed) {
+  const auto pixels = [](int gap_px) {
+    return pixels_cut(
+        before_a_wall(160, 120, {{{65, 50, 10, 14}, 2.0F}, {{75 + gap_px, 50, 10, 14}, 2.0F}}));
+  };
+  EXPECT_EQ(pixels(1), 280 + 14);
+  EXPECT_EQ(pixels(2), 280 + 28);
+  EXPECT_EQ(pixels(3), 280);
+}
+
+/// Strips at each side of the picture, and what fills its middle before them.
+TEST(BackgroundPlanes, WhatIsNoneOfThemIsNoneOfTheFour) {
+  EXPECT_EQ(background_planes(before_a_wall(160, 120,
+                                            {{{0, 0, 160, 20}, 2.0F},
+                                             {{0, 100, 160, 20}, 3.0F},
+                                             {{130, 20, 30, 80}, 2.5F},
+                                             {{30, 20, 100, 80}, 1.0F}}))
+                .size(),
+            4U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -342,5 +342,22 @@ TEST(SegmentOnTable, APlaceBesideTheImageIsNotSeen) {
   EXPECT_TRUE(empty.place_seen);
 }
 
+/// A sheet of 4 mm, of which three eighths round the place are 1 mm high.
+TEST(FindTableTop, IsTheMedianOfWhatIsRoundThePlace) {
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = Vector3d(0.0, 0.0, 2.5);
+  CameraImages images = block_from_above(0.0F);
+  for (int row = 13; row < 37; ++row) {
+    for (int column = 18; column < 42; ++column) {
+      images.depth_m[pixel_at(row, column)] = column < 28 ? 1.999F : 1.996F;
+    }
+  }
+  Rng rng(1);
+  const TableSearch found = find_table_top(images, T_world_camera, {0.0, 0.0, 0.5}, {}, rng);
+  ASSERT_TRUE(found.table) << found.reason;
+  EXPECT_NEAR(found.table->height_above({0.0, 0.0, 0.504}), 0.0, 8e-4);
+}
+
 }  // namespace
 }  // namespace vantage

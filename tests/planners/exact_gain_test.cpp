@@ -96,6 +96,11 @@ TEST(ExactGains, AskNowAndThenWhetherToGoOn) {
   EXPECT_EQ(exact_gain_bits(SimpleGain{}, {large}, make_pose({-3.0, 0.0, 0.0}, 0.0), ahead),
             27000.0);
   EXPECT_EQ(asked, 1 + 1);
+  const OccupancyGrid one_less(make_grid_frame({0.0, 0.0, 0.0}, {1.0, 1.0, 0.3}, {127, 43, 3}));
+  asked = 0;
+  EXPECT_EQ(exact_gain_bits(SimpleGain{}, {one_less}, make_pose({-3.0, 0.0, 0.0}, 0.0), ahead),
+            16383.0);
+  EXPECT_EQ(asked, 1);
 }
 
 TEST(ExactGain, OfAViewAwayFromTheMapIsZero) {

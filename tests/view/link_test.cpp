@@ -101,12 +101,26 @@ TEST(ViewLink, ControlsAloneAreNoWork) {
   ViewControls controls;
   controls.help = true;
   link.set_controls(controls);
-  std::thread later([&] { link.show({1.5}, 0, false); });
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    link.show({1.5}, 0, false);
+  });
   const auto work = link.wait_for_work();
   later.join();
   ASSERT_TRUE(work);
   EXPECT_EQ(work->moment.state, (std::vector<double>{1.5})) << "it has waited for a moment";
   EXPECT_TRUE(work->controls.help);
+}
+
+/// As a painter does that has nothing to draw.
+TEST(ViewLink, WhoWaitsIsToldOfTheEnd) {
+  ViewLink link;
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    link.close();
+  });
+  EXPECT_FALSE(link.wait_for_work());
+  later.join();
 }
 
 }  // namespace

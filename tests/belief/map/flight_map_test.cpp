@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "tests/support/drawn_room.hpp"
 
@@ -71,28 +71,31 @@ TEST(FlightMap, AColumnGoesOnAboveWhatWasSeenOfItAStandDoesNot) {
   EXPECT_FALSE(blocked_at(map, {1.85, -0.5, 1.75}));
 }
 
-/// Three columns of cells side by side, seen level from 10 m away. Of each cell, from the floor up:
-/// '#' a surface, '.' nothing up to the range, '?' no reading. Of the middle one 'x' is blocked.
-std::string blocked_of_middle(const std::array<std::string, 3>& columns, float beside_m = 10.15F,
+/// Columns of cells side by side, an odd number, seen level from 10 m away. Of each cell, from the
+/// floor up: '#' a surface, '.' nothing up to the range, '?' no reading. Of the middle one 'x' is
+/// blocked.
+std::string blocked_of_middle(const std::vector<std::string>& columns, float beside_m = 10.15F,
                               double rise_m = 0.3) {
+  const auto count = static_cast<int>(columns.size());
   CameraImages image;
-  image.width_px = 40;
+  image.width_px = 64;
   image.height_px = 120;
   image.focal_px = 1000.0;
   image.range_max_m = 20.0;
   for (int i = 0; i < image.width_px * image.height_px; ++i) {
     const Vector3d ray = image.ray(i / image.width_px, i % image.width_px);
-    const auto side = static_cast<int>(std::floor(1.5 - 101.5 * ray.x()));
+    const auto side = static_cast<int>(std::floor(0.5 * count - 101.5 * ray.x()));
     const auto z = static_cast<int>(std::floor(5.0 - 101.5 * ray.y()));
-    const bool inside = side >= 0 && side < 3 && z >= 0 && z < 10;
+    const bool inside = side >= 0 && side < count && z >= 0 && z < 10;
     const char seen =
         inside ? columns[static_cast<std::size_t>(side)][static_cast<std::size_t>(z)] : '?';
-    const float surface_m = side == 1 ? 10.15F : beside_m;
+    const float surface_m = side == count / 2 ? 10.15F : beside_m;
     image.depth_m.push_back(seen == '#'   ? surface_m
                             : seen == '.' ? std::numeric_limits<float>::infinity()
                                           : 0.0F);
   }
-  const Eigen::AlignedBox3d region_m(Vector3d(0.0, -0.15, 0.0), Vector3d(0.3, 0.15, 1.0));
+  const Eigen::AlignedBox3d region_m(Vector3d(0.0, -count / 20.0, 0.0),
+                                     Vector3d(0.3, count / 20.0, 1.0));
   FlightMap map(region_m, {.rise_m = rise_m});
   map.insert(image, drawn_camera({-10.0, 0.0, 0.5}, 0.0, 0.0));
   std::string drawn;
@@ -249,6 +252,49 @@ TEST(FlightMap, SaysHowManyCellsOfWhatSizeAreTooMany) {
     EXPECT_NE(message.find("map: 8589934592"), std::string::npos) << message;
     EXPECT_NE(message.find("cell_m = 0.5,"), std::string::npos) << message;
   }
+}
+
+/// Of a stand that is two columns away it says nothing.
+TEST(FlightMap, WhatEndsTwoColumnsAwayEndsNothing) {
+  const std::string nothing(10, '?');
+  const std::string goes_on = "#####?????";
+  const std::string ends = "#####.....";
+  for (const float beside_m : {10.05F, 10.15F, 10.25F}) {
+    EXPECT_EQ(blocked_of_middle({nothing, nothing, goes_on, nothing, ends}, beside_m),
+              "xxxxxxxxxx");
+    EXPECT_EQ(blocked_of_middle({ends, nothing, goes_on, nothing, nothing}, beside_m),
+              "xxxxxxxxxx");
+    EXPECT_EQ(blocked_of_middle({nothing, nothing, goes_on, ends, nothing}, beside_m),
+              "xxxxx.....");
+  }
+}
+
+/// 1.5 cm from the middle of a cell of 4 cm, whose next one has its middle 2.5 cm away.
+TEST(FlightMap, AReadingOffTheMiddleOfItsCellCountsByTheNoise) {
+  CameraImages image;
+  image.width_px = 1;
+  image.height_px = 1;
+  image.focal_px = 100.0;
+  image.range_max_m = 20.0;
+  image.depth_m = {2.025F};
+  for (const double noise_m : {0.03, 0.06}) {
+    FlightMapOptions options;
+    options.cell_m = 0.04;
+    options.noise_m = noise_m;
+    FlightMap map({Vector3d(0.0, -1.0, 0.0), Vector3d(3.0, 1.0, 1.0)}, options);
+    map.insert(image, drawn_camera({-0.5, 0.02, 0.54}, 0.0, 0.0));
+    const GridFrame& frame = map.grid().frame;
+    const std::size_t cell = frame.index(frame.cell_at({1.525, 0.02, 0.54}));
+    const double off = 0.015 / noise_m;
+    EXPECT_NEAR(map.grid().p_occupied(cell), 0.5 + 0.3 * std::exp(-0.5 * off * off), 1e-3);
+    const auto raised = [](float log_odds) { return log_odds > 0.0F; };
+    EXPECT_EQ(std::ranges::count_if(map.grid().log_odds, raised), 1) << noise_m;
+  }
+}
+
+TEST(FlightMap, MayHaveTwoToThe26Cells) {
+  const FlightMap large({Vector3d::Zero(), Vector3d(4096.0, 4096.0, 4.0)}, {.cell_m = 1.0});
+  EXPECT_EQ(large.grid().size(), std::size_t{1} << 26);
 }
 
 }  // namespace

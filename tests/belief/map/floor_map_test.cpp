@@ -226,5 +226,18 @@ TEST(ClearFootprint, FreesACellWhoseCentreIsJustInReachAndTakesNoneBack) {
   EXPECT_EQ(map.log_odds[map.index(map.cell_at({0.5, 0.5}))], -2.0F);
 }
 
+TEST(FloorMapOptions, SayWhetherThereAreTooManyCellsOrNone) {
+  const auto error_of = [](const FloorMapOptions& options) -> std::string {
+    try {
+      options.check();
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(error_of({.half_size_m = 1e-12}).find("0 cells, not one"), std::string::npos);
+  EXPECT_NE(error_of({.half_size_m = 205.0}).find("cells, more than 2^26"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace vantage

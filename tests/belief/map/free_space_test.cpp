@@ -318,5 +318,31 @@ TEST(FreeSpaceOfImages, NoReadingFreesNothing) {
   EXPECT_EQ(carve_free_space(c.map, c.image, c.T_world_camera, {}), 0U);
 }
 
+/// Of lines that meet corners of cells, where the walk from the other end takes another way.
+TEST(FreeSpace, WalksFromTheSensorToTheCell) {
+  Rng rng(9);
+  const Pose T_world_sensor = sensor_at(0.5, 4.5);
+  const FieldOfView view = wide_view(1.5, 20.0);
+  int hidden = 0;
+  for (int world = 0; world < 30; ++world) {
+    OccupancyGrid map = parse(Drawing(9, "?????????"));
+    const RangeScan scan = scan_of(map, T_world_sensor, view, 3, 401);
+    for (float& log_odds : map.log_odds) log_odds = rng.uniform() < 0.15 ? 2.0F : 0.0F;
+    const OccupancyGrid before = map;
+    carve_free_space(map, scan, T_world_sensor, {});
+    for (std::size_t cell = 0; cell < map.size(); ++cell) {
+      if (before.state(cell) != CellState::unobserved) continue;
+      const Eigen::Vector3d p_world = map.frame.centre(map.frame.cell(cell));
+      if (!view.contains(T_world_sensor.inverse() * p_world)) continue;
+      const bool clear =
+          walk_ray(map.frame, T_world_sensor.translation(), p_world,
+                   [&](std::size_t at) { return before.state(at) != CellState::occupied; });
+      EXPECT_EQ(map.state(cell) == CellState::free, clear) << world << " " << cell;
+      hidden += clear ? 0 : 1;
+    }
+  }
+  EXPECT_GT(hidden, 100);
+}
+
 }  // namespace
 }  // namespace vantage

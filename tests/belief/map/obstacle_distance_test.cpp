@@ -123,5 +123,24 @@ TEST(ObstacleDistance, IsThatToCellsThatAreOnlyJustOccupied) {
   }
 }
 
+TEST(ObstacleDistance, IsThatToTheOutermostCellsToo) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool last : {false, true}) {
+      Eigen::Array3i cells = Eigen::Array3i::Ones();
+      cells[axis] = 20;
+      GridFrame frame;
+      frame.cells = cells;
+      OccupancyGrid grid(frame);
+      grid.log_odds[last ? 19 : 0] = 1.0F;
+      const ObstacleDistance distance(grid);
+      for (int i = 0; i < 20; ++i) {
+        Eigen::Array3i at = Eigen::Array3i::Zero();
+        at[axis] = i;
+        EXPECT_EQ(distance.cells(at), std::min(last ? 19 - i : i, 15)) << axis << " " << i;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

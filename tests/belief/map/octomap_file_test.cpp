@@ -220,5 +220,15 @@ TEST_F(OctomapFiles, ABorderOfCellsIsOneToAMillionthOfACell) {
   EXPECT_EQ(along(1.0 - 1.5e-6, 3.0 + 1.5e-6), (std::pair{0, 4}));
 }
 
+TEST_F(OctomapFiles, ACoarseCellOfOneKnownOneIsUnobserved) {
+  const auto fine = map({{{0, 0, 0}, 1, false}, {{2, 0, 0}, 2, false}}, 0.1);
+  EXPECT_EQ(test::draw(fine.grid_of({{0, 0, 0}, {4, 2, 2}}, 2)), (std::vector<std::string>{"?."}));
+}
+
+TEST_F(OctomapFiles, WhatIsMissingIsSaidToBeSo) {
+  EXPECT_THAT(error_of(directory_ / "none.bt"), HasSubstr("none.bt: cannot read"));
+  EXPECT_THAT(error_of(directory_.path()), HasSubstr(": is a directory"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -254,5 +254,46 @@ TEST(SensorModel, EvidenceReachesAsManyCellsHoweverLargeTheyAre) {
   }
 }
 
+/// The neighbours of the only point, along every axis, above all points and below.
+TEST(SensorModel, EvidenceReachesAsFarAlongEveryAxis) {
+  OccupancyGrid grid(small_frame());
+  const auto point = point_in(grid.frame, {4, 4, 4});
+  add_measurements(grid, {&point, 1}, {.p_occupied_peak = 0.6}, 1);
+  const double expected = 0.5 + 0.1 * std::exp(-0.5 / 0.4225);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      Eigen::Array3i beside(4, 4, 4);
+      beside[axis] += side;
+      EXPECT_NEAR(grid.p_occupied(grid.frame.index(beside)), expected, 1e-4) << axis << side;
+    }
+  }
+}
+
+TEST(SensorModel, OfNoPointsChangesNothing) {
+  OccupancyGrid grid(small_frame());
+  const OccupancyGrid before = grid;
+  add_measurements(grid, {}, {}, 2);
+  EXPECT_EQ(grid.log_odds, before.log_odds);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Eigen::Vector3f> none{{nan, nan, nan}, {0.3F, nan, 0.7F}};
+  add_measurements(grid, none, {}, 2);
+  EXPECT_EQ(grid.log_odds, before.log_odds);
+}
+
+/// Half a cell above the middle of the highest one, and so in none.
+TEST(SensorModel, APointOnTheUpperFaceOfTheGridOnlySpreads) {
+  GridFrame frame;
+  frame.cells = {5, 5, 4};
+  OccupancyGrid grid(frame);
+  const Eigen::Vector3f point(2.5F, 2.5F, 4.0F);
+  for (const int threads : {1, 3}) {
+    std::ranges::fill(grid.log_odds, 0.0F);
+    add_measurements(grid, {&point, 1}, {.p_occupied_peak = 0.6}, threads);
+    EXPECT_NEAR(grid.p_occupied(frame.index({2, 2, 3})), 0.5 + 0.1 * std::exp(-0.5 * 0.25 / 0.4225),
+                1e-5);
+    EXPECT_EQ(grid.count(CellState::occupied), 0U);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

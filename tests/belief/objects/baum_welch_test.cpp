@@ -292,5 +292,22 @@ TEST(AddExpectedMoves, OfViewsThatAreImpossibleOrWithoutMotionAreNone) {
   EXPECT_EQ(counts.other_category, before.other_category);
 }
 
+/// By 1.5 bins the object was not turned at all: the command of one bin and that of two may have
+/// done so alike.
+TEST(AddExpectedMoves, SharesAMoveEvenlyBetweenCommandsThatMakeItAsOften) {
+  const ObjectStates states = test::make_states({0, 0}, 4);
+  const LearnedTransition transition = as_learned(TableTransition{}, 4);
+  Eigen::VectorXd first = Eigen::VectorXd::Constant(8, -kUnlimited);
+  first[0] = 0.0;
+  const std::vector<ViewStep> sequence{{0.0, first}, {1.5 * states.bin_rad(), first}};
+  TransitionCounts counts;
+  counts.slip = Eigen::MatrixXd::Zero(4, 4);
+  add_expected_moves(states, transition, sequence, counts);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(4, 4);
+  expected(3, 1) = 0.5;
+  expected(2, 2) = 0.5;
+  EXPECT_TRUE(counts.slip.isApprox(expected, kFitTolerance)) << counts.slip;
+}
+
 }  // namespace
 }  // namespace vantage

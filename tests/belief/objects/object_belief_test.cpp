@@ -68,6 +68,7 @@ TEST(Update, NamesTheStateWhoseLikelihoodIsNone) {
     ObjectBelief belief = belief_of({0.5, 0.5});
     const EvidenceResult result = update(belief, Eigen::Vector2d(0.0, bad));
     EXPECT_THAT(result.reason, HasSubstr("state 1"));
+    EXPECT_EQ(result.log_evidence, 0.0);
     EXPECT_EQ(belief.log_p, belief_of({0.5, 0.5}).log_p);
   }
 }
@@ -410,6 +411,16 @@ TEST(MeanYaw, OfAPreferenceBelowABillionthIsZero) {
   };
   EXPECT_EQ(mean_rad(7e-10), 0.0);
   EXPECT_NEAR(mean_rad(1.5e-9), kTurn / 4.0, 1e-3);
+}
+
+TEST(EstimateOf, IsOfTheDatabaseWhereNothingCanBeUnknown) {
+  const ObjectStates states = make_states({0, 1}, 2);
+  const ObjectBelief belief = belief_of({0.1, 0.1, 0.3, 0.5});
+  EXPECT_EQ(p_unknown(states, belief), 0.0);
+  EXPECT_FALSE(is_unknown(states, belief));
+  EXPECT_EQ(estimate_of(states, belief).object, "object_1");
+  EXPECT_EQ(estimate_of(states, belief).category, "category_1");
+  EXPECT_NEAR(estimate_of(states, belief).probability, 0.8, 1e-12);
 }
 
 }  // namespace

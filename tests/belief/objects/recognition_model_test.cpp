@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -317,6 +318,35 @@ TEST_F(RecognitionFile, NamesABlobThatAppearsTwice) {
 
 TEST_F(RecognitionFile, OfASingleByteIsNotEmptyButNoModel) {
   EXPECT_THAT(error_of("v"), HasSubstr("is not a recognition model"));
+}
+
+TEST_F(RecognitionFile, ObjectsAreOfCategoriesThatThereAre) {
+  const std::size_t category = whole_.find("object_1") + 8;
+  const auto with = [&](std::int32_t value) {
+    std::string bytes = whole_;
+    std::memcpy(bytes.data() + category, &value, sizeof value);
+    return error_of(sealed(bytes));
+  };
+  EXPECT_EQ(with(1), "");
+  EXPECT_THAT(with(2), HasSubstr("'object_1' is of category 2, of 2"));
+  EXPECT_THAT(with(-1), HasSubstr("'object_1' is of category -1, of 2"));
+}
+
+TEST_F(RecognitionFile, OfItsFirstLineAloneIsAModelThatWasCutShort) {
+  EXPECT_THAT(error_of(whole_.substr(0, kVersionAt)), HasSubstr("ends within the header"));
+}
+
+/// Nine bytes each, more than all that comes behind them.
+TEST_F(RecognitionFile, HoldsManySmallBlobs) {
+  RecognitionModel model;
+  FeatureModel& feature = model.features.emplace_back();
+  feature.name = "many";
+  feature.statistics = empty_statistics(1, 0);
+  for (char name = '!'; name <= '~'; ++name) feature.blobs[std::string(1, name)] = "";
+  write_recognition_model(model, path_);
+  const RecognitionModel read = read_recognition_model(path_);
+  ASSERT_EQ(read.features.size(), 1U);
+  EXPECT_EQ(read.features[0].blobs, feature.blobs);
 }
 
 }  // namespace

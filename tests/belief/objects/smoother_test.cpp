@@ -142,5 +142,27 @@ TEST(Smooth, OfNoStepsIsNothing) {
   EXPECT_EQ(smoothed.log_likelihood, 0.0);
 }
 
+/// What is most probable of it is 0, however long the sequence.
+TEST(Smooth, WhatIsAheadIsOfTheViewsFromThereOn) {
+  const ObjectStates states = test::make_states({0, 0, 1}, 2);
+  const TransitionModel transition = TableTransition{};
+  Rng rng(6);
+  std::vector<ViewStep> steps(4);
+  for (ViewStep& step : steps) {
+    step.motion_rad = rng.uniform(0.5, 6.0);
+    step.log_likelihood =
+        Eigen::VectorXd::NullaryExpr(states.size(), [&] { return rng.normal(-50.0, 2.0); });
+  }
+  const SmoothedSequence smoothed = smooth(states, uniform_belief(states), transition, steps);
+  ASSERT_EQ(smoothed.log_ahead.size(), 4U);
+  Eigen::VectorXd after = Eigen::VectorXd::Ones(states.size());
+  for (std::size_t t = 4; t-- > 0;) {
+    const Eigen::VectorXd ahead = exp_of(steps[t].log_likelihood).cwiseProduct(after);
+    EXPECT_EQ(smoothed.log_ahead[t].maxCoeff(), 0.0) << t;
+    EXPECT_TRUE(exp_of(smoothed.log_ahead[t]).isApprox(ahead / ahead.maxCoeff(), 1e-9)) << t;
+    after = test::dense(states, kernel_of(transition, steps[t].motion_rad, 2)) * ahead;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <string>
 
 #include "vantage/core/rng.hpp"
 
@@ -125,6 +128,51 @@ TEST(PackedStatistics, RefuseAFeatureWithoutDimensions) {
   put(bytes, std::uint32_t{0});  // dimensions
   ByteReader reader(bytes, "test");
   EXPECT_THROW(take_packed(reader, 1), InputError);
+}
+
+/// Low and step of the means, and step of the spreads, of one dimension.
+TEST(PackedStatistics, HaveRangesThatEndInFiniteNumbers) {
+  GaussianStatistics statistics = empty_statistics(1, 1);
+  add_view(statistics, 0, Eigen::VectorXf::Ones(1));
+  std::string whole;
+  put_packed(whole, statistics);
+  const auto is_read = [&](float low, float step, float spread) {
+    const std::array<float, 3> ranges{low, step, spread};
+    std::string bytes = whole;
+    std::memcpy(bytes.data() + 2 * sizeof(std::int32_t), ranges.data(), sizeof ranges);
+    ByteReader reader(bytes, "test");
+    try {
+      take_packed(reader, 1);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(is_read(1.0F, 0.0F, 0.0F));
+  EXPECT_TRUE(is_read(-3e38F, 3e38F / 65535.0F, 0.0F));
+  EXPECT_FALSE(is_read(3e38F, 2e38F / 65535.0F, 0.0F)) << "up to 5e38";
+  EXPECT_FALSE(is_read(1.0F, -1e-3F, 0.0F));
+  EXPECT_FALSE(is_read(1.0F, 0.0F, -1e-3F));
+  EXPECT_TRUE(is_read(1.0F, 0.0F, 1e18F / 65535.0F));
+  EXPECT_FALSE(is_read(1.0F, 0.0F, 1e20F / 65535.0F)) << "spreads are squared";
+}
+
+TEST(PackedStatistics, KeepMeansAsFarApartAsFloatsMayBe) {
+  GaussianStatistics statistics = empty_statistics(1, 2);
+  add_view(statistics, 0, Eigen::VectorXf::Constant(1, -3e38F));
+  add_view(statistics, 1, Eigen::VectorXf::Zero(1));
+  const GaussianStatistics read = packed_and_back(statistics);
+  EXPECT_EQ(read.mean(0, 0), -3e38F);
+  EXPECT_NEAR(read.mean(0, 1), 0.0, 1e32);
+}
+
+/// Behind the ranges: the steps of the mean and of the spread, of which there are none.
+TEST(PackedStatistics, HaveNoStepsWhereAllStatesAreTheSame) {
+  GaussianStatistics statistics = empty_statistics(1, 1);
+  add_view(statistics, 0, Eigen::VectorXf::Constant(1, 5.0F));
+  std::string bytes;
+  put_packed(bytes, statistics);
+  EXPECT_EQ(bytes.substr(bytes.size() - 4), std::string(4, '\0'));
 }
 
 }  // namespace

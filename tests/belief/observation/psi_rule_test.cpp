@@ -288,5 +288,29 @@ TEST(MeanLogPosterior, OneNumberRulesAStateOut) {
   EXPECT_EQ(kRulesOut, -1e9);
 }
 
+/// As far from the others as can be, and yet it has no part in the answer.
+TEST(CalibratedPsi, IsNotChangedByAStateThatIsNeverPossible) {
+  for (const float score : {2.0F, 20.0F, 200.0F}) {
+    World world;
+    world.models.push_back(repeating_model(1));
+    world.held_out.state = {0, 0, 0, 1};
+    Eigen::MatrixXf densities(3, 4);
+    densities.row(0).setZero();
+    densities.row(1).setConstant(-score);
+    densities.row(2).setConstant(-std::numeric_limits<float>::infinity());
+    world.held_out.log_density = {densities};
+    const double psi = CalibratedPsi{}(world.context())[0];
+    EXPECT_NEAR(psi * score, std::log(3.0), 1e-5) << score;
+  }
+}
+
+TEST(CalibratedPsi, OfAFeatureThatTellsNothingIsTheGreatest) {
+  World world;
+  world.models.push_back(repeating_model(1));
+  world.held_out.state = {0, 1};
+  world.held_out.log_density.emplace_back(Eigen::MatrixXf::Zero(2, 2));
+  EXPECT_EQ(CalibratedPsi{}(world.context())[0], 10.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -401,5 +401,44 @@ TEST(ExportedRuns, HaveTheBaseWhereItsPoseIs) {
   EXPECT_GT(most_turned, 0.5) << "it did not keep the heading that it began with";
 }
 
+/// However small the most is, it is the most; what comes after the last state is at its time.
+TEST(ExportedRuns, ColourViewsByTheirShareOfTheMost) {
+  Decision decision;
+  for (const double gain : {0.5, 0.125, 0.25}) {
+    decision.candidates.emplace_back().gain_bits = gain;
+  }
+  decision.candidates[2].reachable = false;
+  decision.chosen = 0;
+  const CopyOfTheRun copy;
+  EventLog story(copy.run());
+  story.add({0, decision});
+  story.add({40, PlannedFlight{{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}}});
+  story.add({1'000'000, decision});
+  story.commit();
+  const TopicMessages topics = topics_of(copy.exported(1.0));
+  const ExportJson& entities = topics.at("/views").at(0).json["entities"];
+  ASSERT_EQ(entities[0]["arrows"].size(), 3U);
+  EXPECT_EQ(entities[0]["arrows"][0]["color"]["r"], 1.0);
+  EXPECT_EQ(entities[0]["arrows"][1]["color"]["r"], 0.25);
+  EXPECT_EQ(entities[0]["arrows"][2]["color"],
+            ExportJson::parse(R"({"r": 0.5, "g": 0.5, "b": 0.5, "a": 0.35})"));
+  EXPECT_EQ(entities[1]["arrows"][0]["color"],
+            ExportJson::parse(R"({"r": 0.95, "g": 0.2, "b": 0.15, "a": 1.0})"));
+  EXPECT_EQ(topics.at("/plan").at(1).json["entities"][0]["lines"][0]["color"],
+            ExportJson::parse(R"({"r": 0.1, "g": 0.75, "b": 0.3, "a": 1.0})"));
+  EXPECT_EQ(topics.at("/views").at(1).time_ns, nanoseconds(short_export().end_s()));
+  EXPECT_GT(topics.at("/overview").size(), short_export().topics.at("/overview").size());
+}
+
+TEST(ExportedRuns, HaveNothingOfFilesThatAreNotThere) {
+  const CopyOfTheRun copy;
+  for (const char* name : {"cloud.ply", "steps.csv", "trajectory_estimated.tum", "story.bin"}) {
+    EXPECT_TRUE(std::filesystem::remove(copy.run() / name)) << name;
+  }
+  std::set<std::string> names;
+  for (const auto& [topic, messages] : topics_of(copy.exported())) names.insert(topic);
+  EXPECT_EQ(names, (std::set<std::string>{"/pose", "/tf"}));
+}
+
 }  // namespace
 }  // namespace vantage

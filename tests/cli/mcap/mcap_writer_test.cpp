@@ -88,5 +88,20 @@ TEST_F(McapWriters, LeaveNothingWithoutCommit) {
   EXPECT_TRUE(folder_.is_empty());
 }
 
+/// Records of a schema, a channel and an empty message have 36, 31 and 31 bytes.
+TEST_F(McapWriters, BeginAChunkAtAMebibyte) {
+  constexpr std::size_t kRest = (std::size_t{1} << 20U) - 36 - 31 - 31;
+  for (const std::size_t less : {0U, 1U}) {
+    McapWriter writer(path());
+    const std::uint16_t channel = writer.add_channel("/a", "S", "{}");
+    writer.add_message(channel, 1, std::string(kRest - less, 'x'));
+    writer.add_message(channel, 2, "{}");
+    writer.commit();
+    const test::McapFile file = written();
+    ASSERT_EQ(file.chunks.size(), 2U - less);
+    EXPECT_EQ(file.chunks[0].size, (std::size_t{1} << 20U) + (less == 0 ? 0 : 32));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

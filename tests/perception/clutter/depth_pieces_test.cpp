@@ -210,5 +210,38 @@ TEST_F(PiecesFromAbove, WhatIsNearerThanAMetreCountsAsWell) {
   EXPECT_TRUE(scene().is_bare({0.0, 0.0, 2.0}, 0.05)) << "half a metre before the camera";
 }
 
+TEST(DepthPiece, ItsHullIsNearestAnywhereOnAnEdge) {
+  const DepthPiece piece = piece_at({{0, 0}, {4, 0}, {4, 3}, {0, 3}});
+  EXPECT_NEAR(piece.distance_m({3.5, -0.5}), 0.5, 1e-12);
+  EXPECT_NEAR(piece.distance_m({0.5, 3.25}), 0.25, 1e-12);
+  EXPECT_NEAR(piece.distance_m({4.5, 2.5}), 0.5, 1e-12);
+}
+
+TEST_F(PiecesFromAbove, NoPieceGoesOnAcrossAGap) {
+  const auto sizes = [&](const std::vector<cv::Rect>& rising) {
+    column_.patch.depth_m.setTo(2.0F);
+    column_.rises.setTo(0);
+    for (const cv::Rect& where : rising) rise(where, 0.1F);
+    std::vector<std::size_t> found;
+    for (const DepthPiece& piece : scene().all()) found.push_back(piece.pixels.size());
+    return found;
+  };
+  EXPECT_THAT(sizes({{0, 0, 4, 3}, {5, 0, 4, 3}}), ElementsAre(12U, 12U)) << "to the right";
+  EXPECT_THAT(sizes({{5, 0, 4, 3}, {0, 1, 4, 3}}), ElementsAre(12U, 12U)) << "to the left";
+  EXPECT_THAT(sizes({{0, 0, 6, 2}, {0, 3, 6, 2}}), ElementsAre(12U, 12U)) << "down";
+  EXPECT_THAT(sizes({{0, 0, 1, 6}, {1, 5, 7, 1}, {3, 1, 4, 3}}), ElementsAre(13U, 12U)) << "up";
+}
+
+/// Down, right, up and left again.
+TEST_F(PiecesFromAbove, APieceGoesOnInEachDirection) {
+  rise({0, 0, 1, 6}, 0.1F);
+  rise({1, 5, 7, 1}, 0.1F);
+  rise({7, 1, 1, 4}, 0.1F);
+  rise({4, 1, 3, 1}, 0.1F);
+  const auto pieces = scene().all();
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].pixels.size(), 20U);
+}
+
 }  // namespace
 }  // namespace vantage

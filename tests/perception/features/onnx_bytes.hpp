@@ -50,6 +50,17 @@ inline std::string averaging_network() {
   return onnx_model(bytes_field(1, node), "", 3);
 }
 
+/// The means of 4 x 4 squares of 56 px of each channel.
+inline std::string pooling_network() {
+  const auto sides = [](std::string_view name) {
+    return bytes_field(
+        5, bytes_field(1, name) + number_field(8, 56) + number_field(8, 56) + number_field(20, 7));
+  };
+  const std::string node = bytes_field(1, "x") + bytes_field(2, "y") +
+                           bytes_field(4, "AveragePool") + sides("kernel_shape") + sides("strides");
+  return onnx_model(bytes_field(1, node), "", 3);
+}
+
 /// A 1 x 1 convolution of an input of `channels` channels.
 inline std::string convolution_network(int channels) {
   const std::string raw(static_cast<std::size_t>(channels) * sizeof(float), '\0');

@@ -154,5 +154,26 @@ TEST(TrainedOnnx, ComponentsOfAnotherNetworkAreRefused) {
   EXPECT_EQ(why_not(4), "model: holds components of another network");
 }
 
+/// Half as high, or as wide, as the square: of its 4 x 4 parts the two in the middle are filled.
+TEST(TrainedOnnx, TheObjectIsInTheMiddleOfTheSquare) {
+  const Pca as_it_is{Eigen::VectorXf::Zero(48), Eigen::MatrixXf::Identity(48, 48),
+                     Eigen::VectorXf::Ones(48)};
+  const TrainedOnnx trained(OnnxNetwork(pooling_network(), "pool.onnx"), as_it_is);
+  for (const bool wide : {true, false}) {
+    ObjectView view = blank_view(wide ? 224 : 112, wide ? 112 : 224);
+    std::ranges::fill(view.mask, 1);
+    std::ranges::fill(view.rgb, 255);
+    const FeatureResult result = trained.extract(view);
+    ASSERT_TRUE(result.extracted()) << result.skipped;
+    ASSERT_EQ(result.vector.size(), 48);
+    for (Eigen::Index i = 0; i < 48; ++i) {
+      const Eigen::Index part = wide ? i / 4 % 4 : i % 4;
+      EXPECT_EQ(result.vector[i] > 0.01F, part == 1 || part == 2) << wide << " " << i;
+      EXPECT_NEAR(result.vector[i], result.vector[i / 16 * 16 + 5] * (part % 3 != 0 ? 1.0F : 0.0F),
+                  1e-4F);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

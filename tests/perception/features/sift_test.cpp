@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -99,6 +100,42 @@ TEST(Sift, ComesBackWithAsManyWordsAsItMayHave) {
   EXPECT_EQ(why_not(2), "");
   EXPECT_EQ(why_not(0), "x: holds too few or many words");
   EXPECT_EQ(why_not(3), "x: holds too few or many words");
+}
+
+/// Every 8 px from 4 px on, of 64 x 32 px.
+TEST(DenseSift, TheGridBeginsHalfAStepFromTheBorder) {
+  Sift same = kSmallSift;
+  same.min_side_px = same.max_side_px = 64;
+  ObjectView view = blank_view(64, 32);
+  std::ranges::fill(view.mask, 1);
+  const Eigen::Matrix2Xf places = dense_root_sift(view, same).places;
+  ASSERT_EQ(places.cols(), 32);
+  EXPECT_FLOAT_EQ(places.row(0).minCoeff(), 4.0F / 64.0F);
+  EXPECT_FLOAT_EQ(places.row(0).maxCoeff(), 60.0F / 64.0F);
+  EXPECT_FLOAT_EQ(places.row(1).minCoeff(), 4.0F / 32.0F);
+  EXPECT_FLOAT_EQ(places.row(1).maxCoeff(), 28.0F / 32.0F);
+}
+
+/// Of an upright edge gradients are level: of eight directions only the first and the fifth occur.
+TEST(DenseSift, DescriptorsAreUpright) {
+  Sift same = kSmallSift;
+  same.min_side_px = same.max_side_px = 64;
+  ObjectView view = blank_view(64, 64);
+  std::ranges::fill(view.mask, 1);
+  for (int row = 0; row < 64; ++row) {
+    for (int column = 30; column < 64; ++column) {
+      std::fill_n(view.rgb.begin() + static_cast<std::ptrdiff_t>(3 * view.index(row, column)), 3,
+                  static_cast<std::uint8_t>(200));
+    }
+  }
+  const Eigen::MatrixXf descriptors = dense_root_sift(view, same).descriptors;
+  float level = 0.0F;
+  float other = 0.0F;
+  for (Eigen::Index bin = 0; bin < 128; ++bin) {
+    (bin % 4 == 0 ? level : other) += descriptors.row(bin).sum();
+  }
+  EXPECT_GT(level, 1.0F);
+  EXPECT_LT(other, 1e-3F * level);
 }
 
 }  // namespace

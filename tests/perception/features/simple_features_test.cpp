@@ -311,5 +311,23 @@ TEST(StandingBox, TheStandIsWithin8MillimetresOfItsMedian) {
   }
 }
 
+/// Hue 20 deg, saturation 3/4, value 200/255: 0.389, 1.75 and 1.853 bins from the first middles.
+TEST(SoftColour, SharesAPixelAmongEightBins) {
+  const FeatureResult brown = SoftColour{}.extract(of_colour(200, 100, 50));
+  ASSERT_TRUE(brown.extracted()) << brown.skipped;
+  const double h = 20.0 / 360.0 * 16.0 - 0.5;
+  const double s = 0.75 * 3.0 - 0.5 - 1.0;
+  const double v = 200.0 / 255.0 * 3.0 - 0.5 - 1.0;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      for (int k = 0; k < 2; ++k) {
+        const double expected =
+            (i == 1 ? h : 1.0 - h) * (j == 1 ? s : 1.0 - s) * (k == 1 ? v : 1.0 - v);
+        EXPECT_NEAR(share(brown, i, 1 + j, 1 + k), expected, 1e-3) << i << j << k;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -400,5 +400,61 @@ TEST_F(BlockFromAbove, IsNotBesideTheTableByWhatIsFarFromTheTable) {
   EXPECT_EQ(find_objects(images_, T_world_camera_, options).size(), 1U);
 }
 
+/// 1 px of a foot at each side. What is an object's there is 10.8 mm high or a third of that, if
+/// beside it; what is measured of it, half of that.
+TEST_F(BlockFromAbove, IsMeasuredByWhatIsHalfAsHighAsAnObject) {
+  const auto pixels = [&](float foot_m) {
+    put_block_at(75, 55);
+    put(74, 55, 1, 10, 2.0F - foot_m);
+    put(85, 55, 1, 10, 2.0F - foot_m);
+    put(75, 54, 10, 1, 2.0F - foot_m);
+    put(75, 65, 10, 1, 2.0F - foot_m);
+    const auto seen = found();
+    return seen.size() == 1 ? seen[0].detection.pixels : -1;
+  };
+  EXPECT_EQ(pixels(0.008F), 140);
+  EXPECT_EQ(pixels(0.0045F), 100);
+}
+
+/// A sheet that does not stand out of the noise by itself, beside the block: 11.5 cm and 4 cm round
+/// its middle are 7.78 px there.
+TEST_F(BlockFromAbove, IsCutOutFourCentimetresRoundWhatStandsOut) {
+  put_block_at(75, 55);
+  put(85, 55, 16, 10, 2.0F - 0.0125F);
+  const auto seen = found();
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_EQ(seen[0].detection.pixels, 100 + 10 + 8 + 4);
+}
+
+/// 20 x 4 px and, below its left end, 5 x 8 px: the mean of all is level with the camera, 2 px from
+/// the middle of its sides and 2.5 px from that of its length.
+TEST_F(BlockFromAbove, IsInTheMiddleOfItsExtents) {
+  images_.depth_m.assign(19200, 2.0F);
+  put(90, 56, 20, 4, 1.8F);
+  put(90, 60, 5, 8, 1.8F);
+  const auto seen = found();
+  ASSERT_EQ(seen.size(), 1U);
+  const ObjectDetection& object = seen[0].detection;
+  EXPECT_EQ(object.pixels, 120);
+  EXPECT_LT((object.p_world_object_m.head<2>() - Eigen::Vector2d(0.36, -0.036)).norm(), 1e-5);
+  EXPECT_NEAR(object.radius_m, 0.018 * std::hypot(9.5, 4.5), 1e-5);
+}
+
+/// Rising by 1 cm a metre along x.
+TEST_F(BlockFromAbove, StandsWhereASlopingTableIsThatHigh) {
+  images_.depth_m.clear();
+  for (int row = 0; row < 120; ++row) {
+    for (int column = 0; column < 160; ++column) {
+      const bool block = column >= 100 && column < 110 && row >= 55 && row < 65;
+      const double z_m = 2.0 / (1.0 + 0.01 * (column - 79.5) / 100.0) - (block ? 0.2 : 0.0);
+      images_.depth_m.push_back(static_cast<float>(z_m));
+    }
+  }
+  const auto seen = found();
+  ASSERT_EQ(seen.size(), 1U);
+  const ObjectDetection& block = seen[0].detection;
+  EXPECT_NEAR(block.support_z_m, 0.805 + 0.01 * block.p_world_object_m.x(), 5e-4);
+}
+
 }  // namespace
 }  // namespace vantage

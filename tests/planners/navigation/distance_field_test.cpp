@@ -58,5 +58,15 @@ TEST(Clearances, CountUnknownSpaceAndTheOutsideAsObstacles) {
   EXPECT_FLOAT_EQ(at(4, 2), std::sqrt(5.0F));
 }
 
+TEST(Clearances, OfAFreeFloorAreThoseToItsNearestSide) {
+  const FloorMap map = floor_of(Drawing(5, "........"));
+  const auto clearance_m = clearances_m(map);
+  for (std::size_t cell = 0; cell < map.size(); ++cell) {
+    const Eigen::Array2i at = map.cell(cell);
+    const int nearest = std::min({at.x() + 1, 8 - at.x(), at.y() + 1, 5 - at.y()});
+    EXPECT_FLOAT_EQ(clearance_m[cell], static_cast<float>(nearest)) << at.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -364,5 +364,17 @@ TEST(FootprintSpace, FitsAlongAWayWhereItFitsEveryThreeCentimetres) {
   EXPECT_FALSE(fits(-0.059));
 }
 
+TEST(FootprintSpace, TurnsAnywhereIfItsCornersReachNoFartherThanTheMargin) {
+  const FloorOutline outline = rectangle(0.5, 0.48);
+  const double corners_m = circumscribed_radius_m(outline) - inscribed_radius_m(outline);
+  const auto turns = [&](double margin_m) {
+    return DrawnRooms(2.0, 2.0, {})
+        .space({.outline = outline}, {.margin_m = margin_m, .headings = 4})
+        ->turns_anywhere();
+  };
+  EXPECT_TRUE(turns(corners_m));
+  EXPECT_FALSE(turns(corners_m - 1e-9));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -412,5 +412,26 @@ TEST(CentredPath, OfAPathThroughOpenPlacesIsThatPath) {
   EXPECT_EQ(driven.end.yaw_rad, 0.3);
 }
 
+// A thin robot passes a post unless one of the headings that are looked at points to it.
+TEST_F(StepsThroughAPassage, TurnInOneThatFitsEveryFiftiethOfARadian) {
+  const FloorOutline diamond{{-0.4, 0.0}, {0.0, -0.004}, {0.4, 0.0}, {0.0, 0.004}};
+  const auto turns = [&](double bearing_rad) {
+    DrawnRooms rooms(3.0, 3.0, {});
+    const Eigen::Array2i post(150, 150);
+    rooms.detail.log_odds[rooms.detail.index(post)] = 3.0F;
+    const Eigen::Vector2d p_m = rooms.detail.centre(post) -
+                                0.3 * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
+    NavigationOptions options;
+    options.footprint_radius_m = 0.4;
+    const PathField field = make_path_field(
+        rooms.floor, {p_m.x(), p_m.y(), 0.0}, options,
+        rooms.space({.outline = diamond}, {.margin_m = 0.0, .preferred_margin_m = 0.0}));
+    const std::vector<PathStep> steps{{p_m, 0.0}, {p_m, 0.01}, {p_m, 0.03}};
+    return path_through_passages(field, steps, 0.0).legs.size();
+  };
+  EXPECT_EQ(turns(0.0075), 1U) << "half way to its middle";
+  EXPECT_EQ(turns(0.015), 2U) << "in its middle";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
@@ -423,6 +425,15 @@ TEST(NarrowSearch, AsksNowAndThenWhetherToGoOn) {
   ASSERT_GT(reached, kNodesBetweenPolls);
   ASSERT_LT(reached + 150U, 2 * kNodesBetweenPolls);
   EXPECT_EQ(asked, 42 + 32 + 1);
+}
+
+TEST_F(Corridor, EachStepIsNotedOnceThoughItIsSearchedAgain) {
+  const PathField narrow = field({.outline = rectangle(0.6, 0.6)}, {});
+  ASSERT_GT(farthest_off_rad(narrow), 3.0) << "backwards only when searched again";
+  std::set<std::pair<std::size_t, std::size_t>> steps;
+  for (const NarrowEdge& edge : narrow.narrow_edges) {
+    EXPECT_TRUE(steps.emplace(edge.from, edge.to).second) << edge.from << " to " << edge.to;
+  }
 }
 
 }  // namespace

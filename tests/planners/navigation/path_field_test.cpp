@@ -9,6 +9,7 @@
 
 #include "tests/planners/navigation/ascii_floor.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
+#include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
 
@@ -321,6 +322,25 @@ TEST(PathField, ACellCostsTheCheapestStepFromOneBesideIt) {
     EXPECT_NEAR(field.cost[cell], cheapest, 1e-9) << to.transpose();
   }
   EXPECT_GT(reached, 200);
+}
+
+TEST(NearestReachable, OfCellsAsNearAndAsCheapIsTheFirstInTheMap) {
+  const Drawing rows{
+      "..#..",  //
+      "..#..",  //
+      "..S..",  //
+  };
+  const FloorMap map = floor_of(rows);
+  const PathField field = make_path_field(map, place_of(rows, 'S'), point_robot());
+  ASSERT_EQ(field.cost[map.index({1, 2})], field.cost[map.index({3, 2})]);
+  EXPECT_EQ(nearest_reachable(field, {2.5, 2.5}), map.index({1, 2}));
+}
+
+TEST(PathField, RejectsOptionsOutOfRange) {
+  const FloorMap map = floor_of({"...", "...", "..."});
+  NavigationOptions options = point_robot();
+  options.comfort_m = 0.0;
+  EXPECT_THROW(static_cast<void>(make_path_field(map, {1.5, 1.5, 0.0}, options)), ConfigError);
 }
 
 }  // namespace

@@ -312,5 +312,16 @@ TEST(PlanPath, LeadsToAGoalInTheCellThatItStandsIn) {
   EXPECT_NEAR(path.length_m, std::hypot(0.6, 0.2), 1e-12);
 }
 
+// It is looked at every 0.75 m, from 0.5 m on.
+TEST_F(WatchedWay, BeginsAtTheFirstOfTwoPlacesAsNear) {
+  const std::vector<Pose2> way{{0.5, 2.5, 0.0}, {3.5, 2.5, 0.0}};
+  options_.footprint_radius_m = 1.0;
+  options_.watch_m = 1.0;
+  FloorMap map = map_;
+  map.log_odds[map.index({3, 2})] = 3.0F;
+  EXPECT_FALSE(is_way_blocked(map, way, {1.625, 2.5, 0.0}, options_)) << "as far as 2 m";
+  EXPECT_TRUE(is_way_blocked(map, way, {1.75, 2.5, 0.0}, options_)) << "as far as 2.75 m";
+}
+
 }  // namespace
 }  // namespace vantage

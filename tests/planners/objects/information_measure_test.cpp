@@ -353,13 +353,15 @@ TEST(EveryInformationMeasure, OfAViewThatCountsForLessIsAsOfASmallerPsi) {
   InformationQuery query{.likely = likely_states(belief, 12), .features = {&feature, 1}};
   const double psi = model.psi;
   for (const auto& measure : every_measure()) {
-    model.psi = 0.4 * psi;
-    query.weight = 1.0;
-    const double bits = bits_of(measure, query);
-    model.psi = psi;
-    query.weight = 0.4;
-    EXPECT_NEAR(bits_of(measure, query), bits, kMeasureTolerance * (1.0 + std::abs(bits)))
-        << strategy_name_of(measure);
+    for (const double weight : {0.4, 0.5, 2.0}) {
+      model.psi = weight * psi;
+      query.weight = 1.0;
+      const double bits = bits_of(measure, query);
+      model.psi = psi;
+      query.weight = weight;
+      EXPECT_NEAR(bits_of(measure, query), bits, kMeasureTolerance * (1.0 + std::abs(bits)))
+          << strategy_name_of(measure) << ' ' << weight;
+    }
   }
 }
 

@@ -81,5 +81,13 @@ TEST(ForecastCalibration, NeedsACellAndASlope) {
   EXPECT_EQ(scale_after(1000.0 * std::exp2(0.0007), 2000.0), 1.0);
 }
 
+TEST(ForecastCalibration, TakesOpticalDepthsTimesAnyFactor) {
+  const ForecastCalibration calibration({.calibrate = false, .prior_scans = 1.0});
+  for (const double factor : {0.25, 0.5, 1.0, 2.0, 3.0}) {
+    const BlockField field = calibration.transmission(uniform_field({2, 2, 2}, 0.25), factor);
+    EXPECT_NEAR(field.per_block[0], std::pow(0.25, factor), 1e-15) << factor;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

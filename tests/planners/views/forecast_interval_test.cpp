@@ -216,5 +216,15 @@ TEST(ForecastInterval, AtATableHoldsTheShareOfErrorsThatItSays) {
   }
 }
 
+/// A hit at a rate of one makes the share that is aimed at more than all.
+TEST(ForecastInterval, IsNoNarrowerThanTheLeastError) {
+  ForecastInterval interval = started({.confidence = 0.01, .rate = 1.0});
+  EXPECT_NEAR(width_in_spreads(interval), 0.03, 1e-9);
+  const double forecast = 0.96 * kFirstView;
+  constexpr double kNone = 1e-3 * kFirstView;
+  interval.observe(forecast, (forecast + kNone) * std::exp(-0.014 + 0.162 * 0.01) - kNone);
+  EXPECT_NEAR(width_in_spreads(interval), 0.01, 1e-6);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -219,5 +219,19 @@ TEST_F(SampledViewsOnAMap, AreEachTheFarthestFromThoseBefore) {
   }
 }
 
+/// Free above the box, below it and on all sides.
+TEST_F(SampledViewsOnAMap, KeepToTheBoxWhateverIsFreeRoundIt) {
+  std::vector<support::MapCube> cubes;
+  for (int i = 0; i < 27; ++i) {
+    cubes.push_back({{64 * (i % 3 - 1), 64 * (i / 3 % 3 - 1), 64 * (i / 9 - 1)}, 64, false});
+  }
+  const Eigen::AlignedBox3d box{Eigen::Vector3d(1.0, 2.0, 3.0), Eigen::Vector3d(2.0, 2.5, 4.0)};
+  const auto views = sample({.positions = 25, .headings = 1}, map(cubes), box);
+  ASSERT_EQ(views.size(), 25U);
+  for (const auto& view : views) {
+    EXPECT_TRUE(box.contains(view.T_world_sensor.translation()));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

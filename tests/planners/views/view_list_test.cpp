@@ -101,6 +101,8 @@ TEST_F(ViewList, NamesWhatIsWrongWithTheHeader) {
   EXPECT_THAT(error_of("x_m,y_m,z_m,yaw_rad\n"), HasSubstr("no view below the header"));
   EXPECT_THAT(error_of("x_m,y_m,yaw_rad\n1,2,3\n"),
               HasSubstr("views.csv:1: column z_m is missing"));
+  EXPECT_THAT(error_of("x_m,y_m,z_m\n1,2,3\n"),
+              HasSubstr("views.csv:1: column yaw_rad is missing"));
   EXPECT_THAT(error_of("x_m,x_m,z_m,yaw_rad\n"), HasSubstr("column x_m is there twice"));
   EXPECT_THAT(error_of("1,2,3,4\n"), HasSubstr("unknown column '1'"));
   EXPECT_THAT(error_of(std::string("\0\xff\x01", 3)), HasSubstr("views.csv:1: unknown column"));

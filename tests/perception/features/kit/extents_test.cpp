@@ -228,5 +228,27 @@ TEST(ObjectSurface, NormalsAreFittedToEightPixelsToEachSideAtMost) {
   EXPECT_GT(std::abs(surface.cloud.normals[view.index(10, 12)].x()), 0.1F) << "columns 4 to 20";
 }
 
+/// The same step between rows 19 and 20.
+TEST(ObjectSurface, NormalsAreFittedToEightPixelsUpAndDownAtMost) {
+  ObjectView view = blank_view(20, 40);
+  view.focal_px = 100.0;
+  ObjectPixels pixels;
+  pixels.width_px = 20;
+  pixels.height_px = 40;
+  pixels.depth.assign(800, 1);
+  pixels.depth_count = 800;
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < 20; ++column) {
+      view.depth_m[view.index(row, column)] = row < 20 ? 1.0F : 1.2F;
+    }
+  }
+  const auto normals = object_surface(view, pixels, 0.2).cloud.normals;
+  ASSERT_EQ(normals.size(), 800U);
+  EXPECT_NEAR(normals[view.index(11, 10)].z(), -1.0F, 1e-4F) << "rows 3 to 19";
+  EXPECT_GT(std::abs(normals[view.index(12, 10)].y()), 0.1F) << "rows 4 to 20";
+  EXPECT_GT(std::abs(normals[view.index(27, 10)].y()), 0.1F) << "rows 19 to 35";
+  EXPECT_NEAR(normals[view.index(28, 10)].z(), -1.0F, 1e-4F) << "rows 20 to 36";
+}
+
 }  // namespace
 }  // namespace vantage

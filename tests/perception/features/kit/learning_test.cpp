@@ -263,5 +263,26 @@ TEST(Pca, ComponentsBelowAMillionthOfTheFirstAreLeftOut) {
   EXPECT_EQ(kept(1.25e-6), 2);
 }
 
+/// Of 0, 1 and 3 the first is any; after 0 it is 1 once and 3 nine times of ten, and so on.
+TEST(Words, AreDrawnBySquaredDistance) {
+  Eigen::MatrixXf samples(1, 3);
+  samples << 0.0F, 1.0F, 3.0F;
+  constexpr int kDrawn = 3000;
+  std::array<int, 4> first{};
+  std::array<int, 4> second{};
+  Rng rng(5);
+  for (int i = 0; i < kDrawn; ++i) {
+    const Eigen::MatrixXf words = learn_words(samples, 2, 0, rng);
+    ++first[static_cast<std::size_t>(words(0, 0))];
+    ++second[static_cast<std::size_t>(words(0, 1))];
+  }
+  // Five standard deviations.
+  EXPECT_NEAR(first[0], kDrawn / 3.0, 130.0);
+  EXPECT_NEAR(first[3], kDrawn / 3.0, 130.0);
+  EXPECT_NEAR(second[0], kDrawn * (1.0 / 5.0 + 9.0 / 13.0) / 3.0, 126.0);
+  EXPECT_NEAR(second[1], kDrawn * (1.0 / 10.0 + 4.0 / 13.0) / 3.0, 95.0);
+  EXPECT_NEAR(second[3], kDrawn * (9.0 / 10.0 + 4.0 / 5.0) / 3.0, 136.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -205,5 +205,12 @@ TEST(ResizedView, TakesItsPlaceAndIntrinsicsAlong) {
   EXPECT_EQ(resized(view, 4, 2).cut_off.size(), 8U) << "of its own size it stays as it is";
 }
 
+TEST(ResizedView, OfOneSideAloneIsResizedToo) {
+  const ObjectView view = blank_view(4, 2);
+  EXPECT_EQ(resized(view, 4, 1).height_px, 1);
+  EXPECT_EQ(resized(view, 4, 1).mask.size(), 4U);
+  EXPECT_EQ(resized(view, 2, 2).width_px, 2);
+}
+
 }  // namespace
 }  // namespace vantage

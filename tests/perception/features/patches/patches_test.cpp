@@ -351,5 +351,29 @@ TEST(ExtractPatches, ThirtyTwoPixelsAreEnough) {
   EXPECT_EQ(skipped(31), "31 pixels of the object have depth, fewer than 32");
 }
 
+/// Of 45 x 5 px: every 8th pixel from (2, 2) on, by its middle.
+TEST(CloudPatches, PlacesAreTheMiddlesOfTheirPixels) {
+  ObjectView view = blank_view(45, 5);
+  view.focal_px = 170.0;
+  ObjectPixels pixels;
+  pixels.width_px = pixels.right_px = 45;
+  pixels.height_px = pixels.bottom_px = 5;
+  ObjectSurface surface;
+  surface.cloud.points.assign(view.mask.size(), {0.0F, 0.0F, 1.0F});
+  surface.cloud.normals.assign(view.mask.size(), {0.0F, 0.0F, -1.0F});
+  for (int i = 0; i < 45 * 5; ++i) surface.point_at.push_back(i);
+  const auto expect_places = [](const PatchSet& set) {
+    ASSERT_EQ(set.places.cols(), 6);
+    for (Eigen::Index p = 0; p < 6; ++p) {
+      EXPECT_FLOAT_EQ(set.places(0, p), (2.5F + 8.0F * static_cast<float>(p)) / 45.0F);
+      EXPECT_FLOAT_EQ(set.places(1, p), 0.5F);
+    }
+  };
+  expect_places(describe_spins(view, pixels, surface,
+                               make_product_basis(basis_axes(PatchKind::normal_spin), 5)));
+  expect_places(
+      describe_sizes(pixels, surface, make_product_basis(basis_axes(PatchKind::size), 5)));
+}
+
 }  // namespace
 }  // namespace vantage
