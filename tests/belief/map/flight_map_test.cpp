@@ -212,13 +212,19 @@ TEST(FlightMap, HasACellAtLeastAndTwoToThe26AtMost) {
                ConfigError);
 }
 
-TEST(FlightMap, AReadingSpeaksForItsOwnCellAlone) {
+/// Of what is straight ahead.
+CameraImages one_pixel(float depth_m) {
   CameraImages image;
   image.width_px = 1;
   image.height_px = 1;
   image.focal_px = 100.0;
   image.range_max_m = 20.0;
-  image.depth_m = {2.05F};
+  image.depth_m = {depth_m};
+  return image;
+}
+
+TEST(FlightMap, AReadingSpeaksForItsOwnCellAlone) {
+  const CameraImages image = one_pixel(2.05F);
   FlightMap map({Vector3d(0.0, -1.0, 0.0), Vector3d(3.0, 1.0, 1.0)});
   map.insert(image, drawn_camera({-0.5, 0.05, 0.55}, 0.0, 0.0));
   EXPECT_EQ(state_at(map, {1.55, 0.05, 0.55}), CellState::occupied);
@@ -228,17 +234,10 @@ TEST(FlightMap, AReadingSpeaksForItsOwnCellAlone) {
 
 /// Of a camera within the region.
 TEST(FlightMap, AReadingOfNothingMarksNothingOneOfHalfAMetreDoes) {
-  CameraImages image;
-  image.width_px = 1;
-  image.height_px = 1;
-  image.focal_px = 100.0;
-  image.range_max_m = 20.0;
   FlightMap map({Vector3d(0.0, -1.0, 0.0), Vector3d(3.0, 1.0, 1.0)});
-  image.depth_m = {0.0F};
-  map.insert(image, drawn_camera({0.5, 0.05, 0.55}, 0.0, 0.0));
+  map.insert(one_pixel(0.0F), drawn_camera({0.5, 0.05, 0.55}, 0.0, 0.0));
   EXPECT_EQ(map.grid().count(CellState::occupied), 0U);
-  image.depth_m = {0.55F};
-  map.insert(image, drawn_camera({0.5, 0.05, 0.55}, 0.0, 0.0));
+  map.insert(one_pixel(0.55F), drawn_camera({0.5, 0.05, 0.55}, 0.0, 0.0));
   EXPECT_EQ(state_at(map, {1.05, 0.05, 0.55}), CellState::occupied);
 }
 
@@ -271,12 +270,7 @@ TEST(FlightMap, WhatEndsTwoColumnsAwayEndsNothing) {
 
 /// 1.5 cm from the middle of a cell of 4 cm, whose next one has its middle 2.5 cm away.
 TEST(FlightMap, AReadingOffTheMiddleOfItsCellCountsByTheNoise) {
-  CameraImages image;
-  image.width_px = 1;
-  image.height_px = 1;
-  image.focal_px = 100.0;
-  image.range_max_m = 20.0;
-  image.depth_m = {2.025F};
+  const CameraImages image = one_pixel(2.025F);
   for (const double noise_m : {0.03, 0.06}) {
     FlightMapOptions options;
     options.cell_m = 0.04;

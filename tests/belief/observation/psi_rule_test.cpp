@@ -246,16 +246,23 @@ TEST(MeanLogPosterior, DoesNotMindHowLargeTheDensitiesOfAViewAre) {
   EXPECT_NEAR(mean_log_posterior(views, psi), expected, 1e-7);
 }
 
-/// All views seem to be of the first of two states, and three in four are.
+/// All views seem to be of the first state, and three in four are; the others are of the second. No
+/// view may be of a third.
+World of_first_state(Eigen::Index states, float score) {
+  World world;
+  world.models.push_back(repeating_model(1));
+  world.held_out.state = {0, 0, 0, 1};
+  Eigen::MatrixXf densities =
+      Eigen::MatrixXf::Constant(states, 4, -std::numeric_limits<float>::infinity());
+  densities.row(0).setZero();
+  densities.row(1).setConstant(-score);
+  world.held_out.log_density = {densities};
+  return world;
+}
+
 TEST(CalibratedPsi, OfTwoStatesMakesTheScoreTheLogOddsOfBeingRight) {
   for (const float score : {2.0F, 20.0F, 200.0F}) {
-    World world;
-    world.models.push_back(repeating_model(1));
-    world.held_out.state = {0, 0, 0, 1};
-    Eigen::MatrixXf densities(2, 4);
-    densities.row(0).setZero();
-    densities.row(1).setConstant(-score);
-    world.held_out.log_density = {densities};
+    World world = of_first_state(2, score);
     const double psi = CalibratedPsi{}(world.context())[0];
     EXPECT_NEAR(psi * score, std::log(3.0), 1e-5) << score;
     EXPECT_NEAR(mean_log_posterior(world.held_out, std::vector{psi}),
@@ -291,14 +298,7 @@ TEST(MeanLogPosterior, OneNumberRulesAStateOut) {
 /// As far from the others as can be, and yet it has no part in the answer.
 TEST(CalibratedPsi, IsNotChangedByAStateThatIsNeverPossible) {
   for (const float score : {2.0F, 20.0F, 200.0F}) {
-    World world;
-    world.models.push_back(repeating_model(1));
-    world.held_out.state = {0, 0, 0, 1};
-    Eigen::MatrixXf densities(3, 4);
-    densities.row(0).setZero();
-    densities.row(1).setConstant(-score);
-    densities.row(2).setConstant(-std::numeric_limits<float>::infinity());
-    world.held_out.log_density = {densities};
+    World world = of_first_state(3, score);
     const double psi = CalibratedPsi{}(world.context())[0];
     EXPECT_NEAR(psi * score, std::log(3.0), 1e-5) << score;
   }
