@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 bool sees_cell(const RayScene& scene, const GridFrame& grid, const Eigen::Array3i& cell,
-               const Eigen::Vector3d& p_world_sensor, int exclude_body) {
+               const Eigen::Vector3d& p_world_sensor, int exclude_body, int& blocker_id) {
   constexpr double contact_m = 1e-6;
   const Eigen::Vector3d centre = grid.centre(cell);
   const Eigen::Vector3d to_centre = centre - p_world_sensor;
@@ -22,8 +22,8 @@ bool sees_cell(const RayScene& scene, const GridFrame& grid, const Eigen::Array3
       clip_segment(Eigen::AlignedBox3d(centre - half, centre + half), p_world_sensor, centre);
   const double entry = inside.enter * distance;
   if (entry == 0.0) return true;
-  const RayHit hit = scene.cast(p_world_sensor, to_centre / distance, distance, exclude_body);
-  return hit.distance_m > entry + contact_m;
+  return !scene.blocks(p_world_sensor, to_centre / distance, entry + contact_m, exclude_body,
+                       blocker_id);
 }
 
 /// Marks the cells that a surface passes by cutting its triangles until they are smaller than half
@@ -176,9 +176,11 @@ void add_visible_cells(const RayScene& scene, const GridFrame& grid, const Pose&
   const ViewCone cone(T_world_sensor, field_of_view);
   const auto unknown = [&](std::size_t index) { return visible[index] == 0; };
   const auto slices = [&](int begin, int end) {
+    int blocker_id = -1;
     for_each_cell_in_view(
         grid, cone, begin, end, unknown, [&](const auto& cell, std::size_t index) {
-          visible[index] = sees_cell(scene, grid, cell, cone.apex_m(), exclude_body) ? 1 : 0;
+          visible[index] =
+              sees_cell(scene, grid, cell, cone.apex_m(), exclude_body, blocker_id) ? 1 : 0;
         });
   };
   std::vector<std::jthread> workers;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -39,10 +40,10 @@ bool place(SolidGeom& geom, const mjData& data) {
 
 /// Distance along the ray, infinity if it is not below `range_max_m`.
 double cast_geom(const SolidGeom& geom, const Eigen::Vector3d& p, const Eigen::Vector3d& d,
-                 double range_max_m) {
+                 double range_max_m, Wanted wanted) {
   if (geom.mesh != nullptr) {
     return geom.mesh->cast(geom.R_world.transpose() * (p - geom.p_world_m),
-                           geom.R_world.transpose() * d, range_max_m);
+                           geom.R_world.transpose() * d, range_max_m, wanted);
   }
   const double distance = mju_rayGeom(geom.p_world_m.data(), geom.R_world.data(),
                                       geom.size_m.data(), p.data(), d.data(), geom.type);
@@ -52,16 +53,25 @@ double cast_geom(const SolidGeom& geom, const Eigen::Vector3d& p, const Eigen::V
 
 /// A ray on its way through Embree; the base class must come first.
 struct RayQuery : RTCIntersectContext {
+  RayQuery(const Eigen::Vector3d& from_m, const Eigen::Vector3d& along, double range_max_m,
+           int without_body, Wanted what)
+      : p_world_m(from_m), direction(along), exclude_body(without_body), wanted(what) {
+    expects(std::abs(direction.squaredNorm() - 1.0) < 1e-9, "ray direction of length 1");
+    rtcInitIntersectContext(this);
+    best.distance_m = range_max_m;
+  }
+
   Eigen::Vector3d p_world_m;
   Eigen::Vector3d direction;
-  int exclude_body = -1;
+  int exclude_body;
+  Wanted wanted;
   RayHit best;
 
   /// @return whether `geom` is the nearest so far.
   bool meet(const SolidGeom& geom) {
     if (geom.body_id == exclude_body) return false;
     const double limit = std::nextafter(best.distance_m, std::numeric_limits<double>::infinity());
-    const double distance = cast_geom(geom, p_world_m, direction, limit);
+    const double distance = cast_geom(geom, p_world_m, direction, limit, wanted);
     const bool nearer =
         distance < best.distance_m || (distance == best.distance_m && std::isfinite(distance) &&
                                        (best.geom_id < 0 || geom.geom_id < best.geom_id));
@@ -70,16 +80,10 @@ struct RayQuery : RTCIntersectContext {
   }
 };
 
-/// Rounded up to float with room for a tie, so that Embree does not skip what lies just as near.
-float search_limit(double distance_m) { return static_cast<float>(distance_m * 1.00001 + 1e-5); }
-
 Eigen::AlignedBox3d world_box(const SolidGeom& geom) {
   const Eigen::Vector3d centre = geom.p_world_m + geom.R_world * geom.box_m.center();
   const Eigen::Vector3d half = geom.R_world.cwiseAbs() * (0.5 * geom.box_m.sizes());
-  // Padded for what the ray's origin and the box lose in float.
-  const double pad = 1e-5 + 1e-6 * (centre.cwiseAbs() + half).maxCoeff();
-  return {centre - half - Eigen::Vector3d::Constant(pad),
-          centre + half + Eigen::Vector3d::Constant(pad)};
+  return {centre - half, centre + half};
 }
 
 /// One for all scenes, which keep it. One thread builds: the same tree on every run. Embree would
@@ -98,6 +102,7 @@ class RayScene::Impl {
   Impl(const mjModel& model, const mjData& data, const GeomFilter& filter);
   void update(const mjData& data);
   [[nodiscard]] RayHit cast(RayQuery& query) const;
+  [[nodiscard]] bool blocks(RayQuery& query, int& blocker_id) const;
 
  private:
   /// Geoms in a tree of their own.
@@ -118,6 +123,7 @@ class RayScene::Impl {
   std::vector<SolidGeom> planes_;  ///< unbounded and few: tested one by one
   Tree still_;                     ///< built once, however large
   Tree moving_;
+  std::unordered_map<int, const SolidGeom*> bounded_;  ///< all but planes, by their ids
 };
 
 RayScene::Impl::Impl(const mjModel& model, const mjData& data, const GeomFilter& filter)
@@ -129,6 +135,7 @@ RayScene::Impl::Impl(const mjModel& model, const mjData& data, const GeomFilter&
 
 /// Once all its geoms are there.
 void RayScene::Impl::plant(Tree& tree) {
+  for (const SolidGeom& geom : tree.geoms) bounded_[geom.geom_id] = &geom;
   tree.scene.reset(rtcNewScene(device_.get()));
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(tree.geoms.size()));
@@ -190,9 +197,7 @@ void RayScene::Impl::update(const mjData& data) {
 void RayScene::Impl::bounds(const RTCBoundsFunctionArguments* arguments) {
   const auto& tree = *static_cast<const Tree*>(arguments->geometryUserPtr);
   const Eigen::AlignedBox3d box = world_box(tree.geoms[arguments->primID]);
-  const Eigen::Vector3f low = box.min().cast<float>();
-  const Eigen::Vector3f high = box.max().cast<float>();
-  *arguments->bounds_o = {low.x(), low.y(), low.z(), 0.0F, high.x(), high.y(), high.z(), 0.0F};
+  *arguments->bounds_o = padded_bounds(box, reach_m(box));
 }
 
 void RayScene::Impl::intersect(const RTCIntersectFunctionNArguments* arguments) {
@@ -201,33 +206,28 @@ void RayScene::Impl::intersect(const RTCIntersectFunctionNArguments* arguments) 
   auto& query = *static_cast<RayQuery*>(arguments->context);
   if (!query.meet(tree.geoms[arguments->primID])) return;
   RTCRayN* ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
-  RTCRayN_tfar(ray, arguments->N, 0) = search_limit(query.best.distance_m);
+  RTCRayN_tfar(ray, arguments->N, 0) =
+      query.wanted == Wanted::any ? kSearchEnds : search_limit_m(query.best.distance_m);
 }
 
 RayHit RayScene::Impl::cast(RayQuery& query) const {
   const double range_max_m = query.best.distance_m;
+  const auto is_over = [&] { return query.wanted == Wanted::any && query.best.hit(); };
   for (const SolidGeom& plane : planes_) query.meet(plane);
-  const Eigen::Vector3f origin = query.p_world_m.cast<float>();
-  const Eigen::Vector3f direction = query.direction.cast<float>();
   for (const Tree* tree : {&still_, &moving_}) {
-    if (tree->geoms.empty()) continue;
-    RTCRayHit ray{};
-    ray.ray = {origin.x(),
-               origin.y(),
-               origin.z(),
-               0.0F,
-               direction.x(),
-               direction.y(),
-               direction.z(),
-               0.0F,
-               search_limit(query.best.distance_m),
-               0xFFFFFFFFU,
-               0,
-               0};
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    if (tree->geoms.empty() || is_over()) continue;
+    RTCRayHit ray = embree_ray(query.p_world_m, query.direction, query.best.distance_m);
     rtcIntersect1(tree->scene.get(), &query, &ray);
   }
   return query.best.hit() && query.best.distance_m <= range_max_m ? query.best : RayHit{};
+}
+
+bool RayScene::Impl::blocks(RayQuery& query, int& blocker_id) const {
+  const auto last = bounded_.find(blocker_id);
+  if (last != bounded_.end() && query.meet(*last->second)) return true;
+  const RayHit hit = cast(query);
+  if (hit.hit()) blocker_id = hit.geom_id;
+  return hit.hit();
 }
 
 RayScene::RayScene(const mjModel& model, const mjData& data, const GeomFilter& filter)
@@ -240,14 +240,14 @@ void RayScene::update(const mjData& data) { impl_->update(data); }
 
 RayHit RayScene::cast(const Eigen::Vector3d& p_world_m, const Eigen::Vector3d& direction,
                       double range_max_m, int exclude_body) const {
-  expects(std::abs(direction.squaredNorm() - 1.0) < 1e-9, "ray direction of length 1");
-  RayQuery query;
-  rtcInitIntersectContext(&query);
-  query.p_world_m = p_world_m;
-  query.direction = direction;
-  query.exclude_body = exclude_body;
-  query.best.distance_m = range_max_m;
+  RayQuery query(p_world_m, direction, range_max_m, exclude_body, Wanted::nearest);
   return impl_->cast(query);
+}
+
+bool RayScene::blocks(const Eigen::Vector3d& p_world_m, const Eigen::Vector3d& direction,
+                      double range_max_m, int exclude_body, int& blocker_id) const {
+  RayQuery query(p_world_m, direction, range_max_m, exclude_body, Wanted::any);
+  return impl_->blocks(query, blocker_id);
 }
 
 }  // namespace vantage

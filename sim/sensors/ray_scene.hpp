@@ -40,6 +40,11 @@ class RayScene {
   [[nodiscard]] RayHit cast(const Eigen::Vector3d& p_world_m, const Eigen::Vector3d& direction,
                             double range_max_m, int exclude_body = -1) const;
 
+  /// Whether it meets any up to there. `blocker_id`, -1 at first, is the geom that blocked a ray
+  /// last: likely this one, too, and so asked first. It becomes the one that blocks, if one does.
+  [[nodiscard]] bool blocks(const Eigen::Vector3d& p_world_m, const Eigen::Vector3d& direction,
+                            double range_max_m, int exclude_body, int& blocker_id) const;
+
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
@@ -47,6 +49,21 @@ void add_hashes(const fs::path& root, Hashes& hashes) {
   }
 }
 
+/// What libraries choose other code by: the C library computes sin with other last digits without
+/// `fma`.
+std::vector<std::string> cpu_features() {
+  std::vector<std::string> features;
+  const auto add = [&](const char* name, int supported) {
+    if (supported != 0) features.emplace_back(name);
+  };
+  add("sse4_2", __builtin_cpu_supports("sse4.2"));
+  add("avx", __builtin_cpu_supports("avx"));
+  add("avx2", __builtin_cpu_supports("avx2"));
+  add("fma", __builtin_cpu_supports("fma"));
+  add("avx512f", __builtin_cpu_supports("avx512f"));
+  return features;
+}
+
 }  // namespace
 
 std::string cpu_name() {
@@ -82,6 +99,7 @@ std::string manifest_json(const RunRequest& request, const RunSummary& summary) 
         {"opencv", CV_VERSION},
         {"compiler", kCompiler}}},
       {"cpu", cpu_name()},
+      {"cpu_features", cpu_features()},
       {"threads", setup.options.threads},
       {"seed", setup.options.seed},
       {"status", status_name(summary.status)},

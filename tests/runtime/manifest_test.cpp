@@ -1,7 +1,10 @@
 #include "vantage/runtime/manifest.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -76,6 +79,13 @@ TEST_F(AssetHashes, AManifestSaysWhatRanOnWhat) {
   EXPECT_EQ(manifest["versions"]["mujoco"], mujoco_version());
   EXPECT_EQ(manifest["versions"].size(), 5U);
   EXPECT_EQ(manifest["cpu"], cpu_name());
+  for (const char* feature : {"sse4_2", "avx", "avx2", "fma", "avx512f"}) {
+    const auto& features = manifest["cpu_features"];
+    EXPECT_EQ(
+        std::count(features.begin(), features.end(), feature) == 1,
+        (read_file("/proc/cpuinfo") + " ").find(fmt::format(" {} ", feature)) != std::string::npos)
+        << feature;
+  }
   EXPECT_EQ(manifest["threads"], 3);
   EXPECT_EQ(manifest["seed"], 9);
   EXPECT_EQ(manifest["status"], "diverged");

@@ -251,6 +251,28 @@ TEST(RayScene, ReachesUpToItsRangeAndNoFartherAndOfTwoMeetsTheFirst) {
   EXPECT_FALSE(rays.cast(eye, down, std::nextafter(1.0, 0.0)).hit());
 }
 
+TEST(RayScene, BlocksWhatItWouldMeetWhateverBlockedBefore) {
+  const auto scene = test::sensor_scene();
+  const RayScene rays(*scene.model, *scene.data);
+  const int body = scene.body("arm");
+  Rng rng(8);
+  int blocker_id = -1;
+  int blocked = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Ray ray = random_ray(rng);
+    const double range_m = rng.uniform(2.0, 8.0);
+    const int excluded = i % 2 == 0 ? body : -1;
+    const bool expected = rays.cast(ray.p, ray.d, range_m, excluded).hit();
+    ASSERT_EQ(rays.blocks(ray.p, ray.d, range_m, excluded, blocker_id), expected) << i;
+    if (!expected) continue;
+    ++blocked;
+    ASSERT_GE(blocker_id, 0);
+    ASSERT_TRUE(rays.blocks(ray.p, ray.d, range_m, excluded, blocker_id)) << i;
+  }
+  EXPECT_GT(blocked, 5000);
+  EXPECT_LT(blocked, 15000);
+}
+
 TEST(RayScene, PlanesThatAreMovedByHandMove) {
   const auto scene = test::compile_mjcf(
       "<mujoco><worldbody><body mocap='true'><geom type='plane' size='9 9 .1'/></body>"
