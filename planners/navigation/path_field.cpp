@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <queue>
@@ -119,13 +120,36 @@ void search_open_places(PathField& field) {
   field.parent = std::move(tree.parent);
 }
 
-/// So near to something that it may not turn, as far as cells of the map tell: a way out of there
-/// keeps its heading in mind.
+/// Traversable cells that make an open place worth it.
+std::size_t least_open_cells(const PathField& field) {
+  if (field.space == nullptr) return 1;
+  const double cells = field.space->options().least_area_m2 / (field.map.cell_m * field.map.cell_m);
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(cells)));
+}
+
+/// Whether the traversable cells about the robot are an open place that is worth it.
+bool stands_in_the_open(const PathField& field) {
+  const std::size_t least = least_open_cells(field);
+  std::vector<std::uint8_t> met(field.map.size(), 0);
+  std::vector<std::size_t> cells{field.start_cell};
+  met[field.start_cell] = 1;
+  for (std::size_t i = 0; i < cells.size() && cells.size() < least; ++i) {
+    for_each_step(
+        field.map, cells[i], [&](std::size_t to) { return field.traversable(to); },
+        [&](std::size_t to, double) {
+          if (std::exchange(met[to], std::uint8_t{1}) == 0) cells.push_back(to);
+        });
+  }
+  return cells.size() >= least;
+}
+
+/// So near to something that it may not turn, as far as cells of the map tell, or in a place in
+/// which it may, but that leads nowhere: a way out of there keeps its heading in mind.
 bool stands_narrow(const PathField& field) {
+  if (field.traversable(field.start_cell)) return !stands_in_the_open(field);
   const double off_m = 0.5 * std::numbers::sqrt2 * field.map.cell_m;
-  return !field.traversable(field.start_cell) &&
-         static_cast<double>(field.clearance_m[field.start_cell]) <
-             field.space->circumscribed_m() + off_m;
+  return static_cast<double>(field.clearance_m[field.start_cell]) <
+         field.space->circumscribed_m() + off_m;
 }
 
 void forget_ways(PathField& field) {
@@ -165,10 +189,11 @@ bool PathField::reachable(const Eigen::Vector2d& p_world) const {
 }
 
 bool PathField::reaches_open_place() const {
-  for (std::size_t cell = 0; cell < cost.size(); ++cell) {
-    if (reachable(cell) && traversable(cell)) return true;
+  std::size_t left = least_open_cells(*this);
+  for (std::size_t cell = 0; cell < cost.size() && left > 0; ++cell) {
+    if (reachable(cell) && traversable(cell)) --left;
   }
-  return false;
+  return left == 0;
 }
 
 double PathField::cost_per_metre(std::size_t cell) const {

@@ -86,7 +86,8 @@ struct PathField {
   [[nodiscard]] bool traversable(std::size_t cell) const;
   [[nodiscard]] bool reachable(std::size_t cell) const;
   [[nodiscard]] bool reachable(const Eigen::Vector2d& p_world) const;
-  /// Whether a traversable cell is reached: the robot can turn there.
+  /// Whether so many traversable cells are reached as make an open place: the robot can turn there,
+  /// and goes on. Without `space`, one will do.
   [[nodiscard]] bool reaches_open_place() const;
   /// At which the robot stands there, if it cannot turn.
   [[nodiscard]] std::optional<double> heading_rad(std::size_t cell) const;

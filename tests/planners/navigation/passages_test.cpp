@@ -334,6 +334,25 @@ TEST(Passages, LeadBackwardsOutOfAnAlcove) {
   }
 }
 
+/// Deep in an alcove it can turn, but only there: a place so small is no open one.
+TEST(Passages, LeadOutOfAPlaceThatIsJustLargeEnoughToTurnIn) {
+  const FloorOutline outline = rectangle(kWidth_m, kWidth_m);
+  const DrawnRooms rooms(3.0, 3.0,
+                         {wall(0.0, 0.0, 1.0, 0.9), wall(0.0, 0.9, 1.05, 1.0),
+                          wall(2.0, 0.0, 3.0, 0.9), wall(1.95, 0.9, 3.0, 1.0)});
+  for (const double yaw_rad : {-0.5 * std::numbers::pi, 0.0, 0.3, std::numbers::pi}) {
+    const PathField disc = make_path_field(rooms.floor, {1.5, 0.475, yaw_rad}, disc_of(outline));
+    ASSERT_TRUE(disc.traversable(disc.start_cell));
+    EXPECT_FALSE(disc.reachable(Eigen::Vector2d(1.5, 2.4)));
+    const PathField field = make_path_field(rooms.floor, {1.5, 0.475, yaw_rad}, disc_of(outline),
+                                            rooms.space({.outline = outline}, {}));
+    EXPECT_TRUE(field.reaches_open_place());
+    const PlannedPath path = plan_path(field, {1.5, 2.4, 0.0});
+    ASSERT_TRUE(path.reaches_goal) << yaw_rad;
+    expect_free(rooms.detail, path, outline);
+  }
+}
+
 /// Wherever it has got to: what is measured about it may leave its outline no way out.
 TEST(Passages, ARobotGetsOutWhereverADiscDoes) {
   Rng rng(11);
