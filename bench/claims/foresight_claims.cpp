@@ -130,7 +130,7 @@ Finding ends_better(const StudyTables& study) {
                                               100.0 * here, 100.0 * there, ratio_text(time)));
                 }
                 return {fmt::format("{}", fmt::join(parts, "<br>")), better,
-                        (least < kAskedFor ? fmt::format("one ended at {:.1f} %: ", 100.0 * least)
+                        (least < kAskedFor ? fmt::format("the least is {:.1f} %: ", 100.0 * least)
                                            : std::string()) +
                             "it stays an option, and `enough` the default"};
               });
