@@ -276,7 +276,7 @@ void search_passages(PathField& field) {
   std::vector<std::uint8_t> may_stand(size, 0);
   const bool any_reached = field.reaches_open_place();
   for (std::size_t cell = 0; cell < size; ++cell) {
-    const bool small = !any_reached && cell == field.start_cell;  // its open place, if any
+    const bool small = !any_reached && cell == field.start_cell;  // no open place
     open[cell] = field.traversable(cell) && !small ? 1 : 0;
     if (open[cell] != 0) continue;
     const Eigen::Array2i middle = field.map.cell(cell) * space.parts() + space.parts() / 2;
