@@ -126,8 +126,9 @@ TEST_F(Corridor, ANearlySquareRobotBacksWhereAheadIsNoWayOut) {
   EXPECT_NEAR(cost_at(field(square, {}), start_cell_ - Eigen::Array2i(1, 0), 0.0), 0.05 * 3.0 * 2.5,
               1e-9)
       << "from where it stands, too";
-  rooms_ = DrawnRooms(4.0, 2.0, {wall(0.0, 0.0, 2.8, 0.67), wall(0.0, 1.38, 2.8, 2.0)});
+  rooms_ = DrawnRooms(5.0, 2.0, {wall(0.0, 0.0, 2.8, 0.67), wall(0.0, 1.38, 2.8, 2.0)});
   EXPECT_LE(farthest_off_rad(field(square, {})), 0.8 + 1e-9) << "open ahead";
+  EXPECT_GT(farthest_off_rad(field(square, {.least_area_m2 = 1.3})), 3.0) << "no place to go to";
   start_.yaw_rad = std::numbers::pi;
   EXPECT_GT(farthest_off_rad(field(square, {})), 3.0) << "open behind";
 }
