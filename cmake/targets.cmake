@@ -110,12 +110,14 @@ function(vantage_test_options target optimisation)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimisation}>)
 endfunction()
 
-# vantage_test(FOLDER SOURCES ... LINK ... [TIMEOUT seconds] [CALCULATES]): one GoogleTest program per folder,
-# test_FOLDER, and a test of CTest for each of its suites; those that may take longest begin first. Not optimised, tests
+# vantage_test(FOLDER SOURCES ... LINK ... [TIMEOUT seconds] [LONG suites ...] [CALCULATES]): one GoogleTest program per
+# folder, test_FOLDER, and a test of CTest for each of its suites; those that may take longest begin first, and
+# `./test --short` leaves the LONG ones out, which take a minute or so each. Not optimised, tests
 # compile in half the time and most run as fast, as their time is spent in the libraries; not those that CALCULATE, by
 # themselves or by templates of the libraries.
 function(vantage_test folder)
-  cmake_parse_arguments(ARG "CALCULATES" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "CALCULATES" "TIMEOUT" "SOURCES;LINK;LONG" ${ARGN})
+  list(JOIN ARG_LONG " " long)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()
@@ -129,5 +131,5 @@ function(vantage_test folder)
   target_link_libraries(test_${folder} PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
   vantage_test_options(test_${folder} ${optimisation})
   target_precompile_headers(test_${folder} REUSE_FROM ${base})
-  vantage_discover_suites(test_${folder} ${folder} ${ARG_TIMEOUT})
+  vantage_discover_suites(test_${folder} ${folder} ${ARG_TIMEOUT} "${long}")
 endfunction()
