@@ -133,6 +133,28 @@ TEST_F(Corridor, ANearlySquareRobotBacksWhereAheadIsNoWayOut) {
   EXPECT_GT(farthest_off_rad(field(square, {})), 3.0) << "open behind";
 }
 
+/// In one that is smaller, its way out keeps its heading in mind.
+TEST_F(Corridor, APlaceIsOpenFromItsLeastAreaOn) {
+  rooms_ = DrawnRooms(5.0, 2.0, {wall(0.0, 0.0, 2.8, 0.67), wall(0.0, 1.38, 2.8, 2.0)});
+  start_ = {3.9, 1.0, 0.0};
+  const auto of_cells = [&](double least) {
+    return field({.outline = rectangle(0.6, 0.6)}, {.least_area_m2 = least * 0.05 * 0.05});
+  };
+  const auto keeps_heading = [](const PathField& field) {
+    return std::ranges::any_of(field.narrow, [](const NarrowPose& node) { return node.cost == 0; });
+  };
+  const PathField any = of_cells(0.0);
+  double cells = 0.0;
+  for (std::size_t cell = 0; cell < any.map.size(); ++cell) cells += any.traversable(cell) ? 1 : 0;
+  ASSERT_GT(cells, 100.0);
+  const PathField large_enough = of_cells(cells - 0.5);
+  EXPECT_TRUE(large_enough.reaches_open_place());
+  EXPECT_FALSE(keeps_heading(large_enough));
+  const PathField too_small = of_cells(cells + 0.5);
+  EXPECT_FALSE(too_small.reaches_open_place());
+  EXPECT_TRUE(keeps_heading(too_small));
+}
+
 /// Of a robot of 4 x 2 cm, whose passages have a third of its speed.
 PathField small_robots_field(const DrawnRooms& rooms, const Pose2& start,
                              double preferred_margin_m = 0.0) {
