@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -107,6 +108,67 @@ TEST_F(EmbreeMeshTest, ARayInTheSheetOrAwayFromItMeetsNothing) {
   const EmbreeMesh line(device_.get(), thin);
   EXPECT_EQ(line.cast({0.5, 0.0, 1.0}, -Eigen::Vector3d::UnitZ(), 9.0), kNoHit_m)
       << "a triangle without an area is none";
+}
+
+TEST_F(EmbreeMeshTest, ARayThatBeginsOnTheSheetMeetsItThere) {
+  EXPECT_EQ(mesh_.cast({0.2, 0.4, 0.3}, -Eigen::Vector3d::UnitZ(), 9.0), 0.0);
+}
+
+TEST_F(EmbreeMeshTest, AnEdgeBelongsToItsTriangleWhicheverWayThatTurns) {
+  const std::vector<Eigen::Vector3d> corners_m{{0, -1, 0}, {0, 1, 0}, {1, 0, 0}};
+  for (const std::array<int, 3>& triangle : {std::array{0, 1, 2}, std::array{0, 2, 1}}) {
+    const EmbreeMesh one(device_.get(), SurfaceMesh{corners_m, {triangle}});
+    EXPECT_EQ(one.cast({0.0, 0.25, 1.0}, -Eigen::Vector3d::UnitZ(), 9.0), 1.0);
+  }
+}
+
+/// 2 mm from the rim, where numbers of Embree's are off by more so far away.
+TEST_F(EmbreeMeshTest, ARayFromAHundredKilometresAwayMeetsTheRim) {
+  Rng rng(6);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3d p(0.002, rng.uniform(0.05, 0.8), 0.3);
+    const Eigen::Vector3d d(rng.uniform(0.2, 1.0), rng.uniform(-1.0, 1.0), -1.0);
+    const Eigen::Vector3d along = d.normalized();
+    ASSERT_NEAR(mesh_.cast(p - 1e5 * along, along, 2e5), 1e5, 1e-6) << i;
+  }
+}
+
+/// A slope whose box the ray is in from the start, but which it meets 2 m on, and a tile before it.
+TEST_F(EmbreeMeshTest, WhatIsNotInRangeHidesNothingThatIs) {
+  const SurfaceMesh crossed{
+      {{-2, -2, -2}, {2, -2, 2}, {0, 4, 0}, {-0.5, -0.5, 1}, {0.5, -0.5, 1}, {0, 0.5, 1}},
+      {{0, 1, 2}, {3, 4, 5}}};
+  const EmbreeMesh mesh(device_.get(), crossed);
+  for (const double range_m : {1.5, 2.0, 2.5}) {
+    const Eigen::Vector3d eye(0.0, 0.0, 2.0);
+    EXPECT_EQ(mesh.cast(eye, -Eigen::Vector3d::UnitZ(), range_m), 1.0);
+    EXPECT_LT(mesh.cast(eye, -Eigen::Vector3d::UnitZ(), range_m, Wanted::any), range_m);
+  }
+}
+
+TEST(EmbreeRay, LeavesRoomForWhatNumbersLoseAsFloats) {
+  EXPECT_FLOAT_EQ(search_limit_m(2.0), 2.00003F);
+  const Eigen::AlignedBox3d box_m(Eigen::Vector3d(-3.0, 0.0, 0.5), Eigen::Vector3d(1.0, 2.0, 2.5));
+  EXPECT_EQ(reach_m(box_m), 3.0);
+  EXPECT_EQ(reach_m({Eigen::Vector3d(-1.0, 0.0, 0.5), box_m.max()}), 2.5);
+  const RTCBounds bounds = padded_bounds(box_m, 10.0);
+  EXPECT_FLOAT_EQ(bounds.lower_x, -3.00002F);
+  EXPECT_FLOAT_EQ(bounds.lower_y, -0.00002F);
+  EXPECT_FLOAT_EQ(bounds.lower_z, 0.49998F);
+  EXPECT_FLOAT_EQ(bounds.upper_x, 1.00002F);
+  EXPECT_FLOAT_EQ(bounds.upper_y, 2.00002F);
+  EXPECT_FLOAT_EQ(bounds.upper_z, 2.50002F);
+}
+
+TEST(EmbreeRay, BeginsAtItsPlaceAndHasMetNothing) {
+  const RTCRayHit sent = embree_ray({1.0, 2.0, 3.0}, {0.0, 0.6, 0.8}, 2.0);
+  const RTCRay& ray = sent.ray;
+  EXPECT_EQ(Eigen::Vector3f(ray.org_x, ray.org_y, ray.org_z), Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+  EXPECT_EQ(Eigen::Vector3f(ray.dir_x, ray.dir_y, ray.dir_z), Eigen::Vector3f(0.0F, 0.6F, 0.8F));
+  EXPECT_EQ(ray.tnear, 0.0F);
+  EXPECT_EQ(ray.time, 0.0F);
+  EXPECT_EQ(ray.tfar, search_limit_m(2.0));
+  EXPECT_EQ(sent.hit.geomID, RTC_INVALID_GEOMETRY_ID);
 }
 
 }  // namespace

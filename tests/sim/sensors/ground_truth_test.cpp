@@ -88,6 +88,19 @@ TEST(VisibleCells, TheRobotHidesCellsUnlessLeftOut) {
             "######....\n");
 }
 
+TEST(VisibleCells, ABodyThatIsLeftOutHidesNothing) {
+  const auto scene = test::compile_mjcf(kRoomWall);
+  const RayScene rays(*scene.model, *scene.data);
+  const Pose T = make_pose({-1.0, 0.25, 0.05}, 0.0);
+  constexpr int kArm = 2;
+  EXPECT_EQ(picture(layer(10, 5), visible_cells(rays, layer(10, 5), T, kWide, kArm)),
+            "######....\n"
+            "######....\n"
+            "######....\n"
+            "######....\n"
+            "######....\n");
+}
+
 TEST(VisibleCells, ASurfaceOnACellFaceHidesTheCellBehindIt) {
   const auto scene = test::compile_mjcf(R"(
     <mujoco><worldbody><geom type="box" size="0.2 2 2" pos="0.7 0 0"/></worldbody></mujoco>)");
