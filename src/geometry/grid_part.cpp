@@ -11,7 +11,7 @@ GridPart cells_about(const GridFrame& frame, const Eigen::AlignedBox3d& box_m) {
   const Eigen::AlignedBox3d common_m = box_m.intersection(frame.box());
   if (common_m.isEmpty()) return {};
   GridPart part;
-  part.begin = (frame.cell_at(common_m.min()) - kMargin_cells).max(0).min(frame.cells - 1);
+  part.begin = (frame.cell_at(common_m.min()) - kMargin_cells).max(0);
   const Eigen::Array3i last = (frame.cell_at(common_m.max()) + kMargin_cells).min(frame.cells - 1);
   part.count = last - part.begin + 1;
   return part;

@@ -131,6 +131,19 @@ TEST(BackgroundWork, BeginsNothingAfterItWasStopped) {
   EXPECT_EQ(ended, begun);
 }
 
+TEST(BackgroundWork, BeginsNothingAfterItsEnd) {
+  std::atomic<int> begun{0};
+  const auto slow = [&](std::size_t) {
+    ++begun;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  {
+    const BackgroundWork work(parts_of(1000, slow), true);
+    wait_until(begun, 1);
+  }
+  EXPECT_LT(begun, 1000);
+}
+
 TEST(BackgroundWork, ThrowsWhereItIsAskedFor) {
   for (const bool in_background : {false, true}) {
     std::atomic<int> begun{0};
