@@ -95,6 +95,51 @@ TEST_F(TwoDatasets, MustShowTheSameObjectsAsLarge) {
               ElementsAre(StartsWith("!objects are 0.6 times as large in yours")));
 }
 
+/// All numbers are those of doubles, to the bit.
+TEST_F(TwoDatasets, MayDifferByAsMuchAsTheLimits) {
+  training_.mask.median = 0.5;
+  test_.mask.median = 0.75;
+  training_.holes.median = 0.15;
+  test_.holes.median = 0.0;
+  test_.focal_px = 510.0;
+  training_.objects = {{.object = "cup_1", .size_m = 0.25}};
+  test_.objects = {{.object = "cup_1", .size_m = 0.375}};
+  EXPECT_THAT(said(), IsEmpty());
+}
+
+/// Of an even number the lower one in the middle.
+TEST_F(TwoDatasets, AreAsLargeAsTheMedianOfTheirObjects) {
+  const auto sized = [&](const std::vector<double>& sizes_m) {
+    training_.objects.clear();
+    test_.objects.clear();
+    for (const double size_m : sizes_m) {
+      const std::string name = "cup_" + std::to_string(test_.objects.size());
+      training_.objects.push_back({.object = name, .size_m = 0.5});
+      test_.objects.push_back({.object = name, .size_m = size_m});
+    }
+    return said();
+  };
+  EXPECT_THAT(sized({4.0, 0.5, 1.5}), ElementsAre(StartsWith("!objects are 3 times as large")));
+  EXPECT_THAT(sized({4.0, 1.5}), ElementsAre(StartsWith("!objects are 3 times as large")));
+  EXPECT_THAT(sized({4.0, 0.5, 1.5, 2.5, 0.5}),
+              ElementsAre(StartsWith("!objects are 3 times as large")));
+}
+
+TEST_F(TwoDatasets, AreNotComparedByObjectsOfNoKnownSize) {
+  training_.objects = {{.object = "cup_1", .size_m = 0.0}, {.object = "jug_2", .size_m = 0.2}};
+  test_.objects = {{.object = "cup_1", .size_m = 0.1}, {.object = "jug_2", .size_m = 0.0}};
+  EXPECT_THAT(said(), IsEmpty());
+}
+
+TEST_F(TwoDatasets, NameTheFirstOfThePicturesTheyShare) {
+  training_.pictures = {{9, "w.png"}};
+  EXPECT_THAT(said(), ElementsAre(StartsWith("!1 of 2 pictures to test on are trained on (z.png is "
+                                             "w.png)")));
+  training_.pictures[8] = "v.png";
+  EXPECT_THAT(said(), ElementsAre(StartsWith("!2 of 2 pictures to test on are trained on (y.png is "
+                                             "v.png)")));
+}
+
 TEST_F(TwoDatasets, MustNotShareTheirPictures) {
   test_.pictures[7] = "copy.png";
   EXPECT_THAT(

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -148,8 +149,10 @@ TEST(ViewCorrelation, OfVideosFromOtherElevationsIsNotTold) {
 /// What is learnt of 250 objects, seen by a number, and how many items of each part of the work
 /// were told of.
 /// @param elevations_deg of each recording's views, one after the other; empty: one of all
+/// @param first_deg elevation of the very first view; nothing: as the others
 std::pair<double, std::map<std::string, std::size_t>> learnt_of_many(
-    int recordings, int views_each, const std::vector<std::vector<double>>& elevations_deg = {}) {
+    int recordings, int views_each, const std::vector<std::vector<double>>& elevations_deg = {},
+    std::optional<double> first_deg = {}) {
   constexpr int kMany = 250;
   RecognitionModel model;
   model.states.bins = 1;
@@ -178,6 +181,7 @@ std::pair<double, std::map<std::string, std::size_t>> learnt_of_many(
       shown.push_back(k);
     }
   }
+  if (first_deg) views.front().elevation_rad = *first_deg * std::numbers::pi / 180.0;
   std::map<std::string, std::size_t> told;
   const LongWork how{
       .tell = [&](const std::string& part, std::size_t, std::size_t of) { told[part] = of; }};
@@ -191,6 +195,20 @@ TEST(ViewCorrelation, IsOf240WalksOfAllRecordings) {
   EXPECT_EQ(told.at("correlation of views"), 240U);
   EXPECT_LE(correlation, 1.0);
   EXPECT_TRUE(learnt_of_many(1, 2).second.empty()) << "of one recording";
+}
+
+/// By the same product and quotient: each is as high as the other, to the bit.
+TEST(ViewCorrelation, IsOfRecordingsTenDegreesApart) {
+  const auto told = learnt_of_many(2, 2, {{0.0}, {10.0}}).second;
+  EXPECT_EQ(told.at("views that repeat each other"), 120U);
+  EXPECT_EQ(told.at("correlation of views"), 240U);
+}
+
+/// One view of the first recording is seen from between the two.
+TEST(ViewCorrelation, IsOfRecordingsThatASingleViewIsAsHighAs) {
+  EXPECT_TRUE(learnt_of_many(2, 2, {{30.0}, {55.0}}).second.empty());
+  const auto told = learnt_of_many(2, 2, {{30.0}, {55.0}}, 46.0).second;
+  EXPECT_EQ(told.at("views that repeat each other"), 120U) << "of the second one";
 }
 
 /// Of three recordings two are seen from lower or higher than all others.
