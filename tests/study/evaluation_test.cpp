@@ -192,6 +192,8 @@ TEST_F(Evaluated, PredictorsAreComparedAlongOneMethod) {
   EXPECT_EQ(errors.rows[1].level, "adaptive");
   EXPECT_DOUBLE_EQ(errors.rows[1].difference->mean, -5.5);
   const Figure& figure = evaluation.figures[1];
+  EXPECT_EQ(figure.y_label, "absolute prediction error, cells");
+  EXPECT_EQ(figure.subtitle, errors.title);
   ASSERT_EQ(figure.panels.size(), 2U);
   EXPECT_TRUE(figure.panels[1].series.empty());
   ASSERT_EQ(figure.panels[0].series.size(), 2U);
@@ -279,6 +281,14 @@ TEST_F(Evaluated, PredictorsAreHeldAgainstThatOfTheReference) {
   EXPECT_EQ(errors.reference, "simple");
   ASSERT_TRUE(errors.rows[0].difference);
   EXPECT_DOUBLE_EQ(errors.rows[0].difference->mean, 2.0 - 7.5);
+}
+
+TEST_F(Evaluated, TheReferenceMayBeOfTheFirstEpisodeAlone) {
+  results_.plan.resize(2);
+  results_.states.resize(2);
+  results_.measures.resize(2);
+  put(1, 1.5, {0.8}, {{"adaptive", {2.0}}, {"random", {10.0}}});
+  EXPECT_EQ(evaluate(results_).comparisons[1].reference, "random");
 }
 
 TEST_F(Evaluated, WithoutPredictionsNoPredictorsAreCompared) {
