@@ -95,6 +95,18 @@ TEST(Outlooks, AreInTheOnlyRowOfAFloor) {
   }
 }
 
+/// Free are the last column and the row two above the one looked at: there the nearest is, 25 cm
+/// away, and not where the row meets the column, 88 cm away.
+TEST(Outlooks, AreFartherUpOrDownWhereThoseAsideAreFartherStill) {
+  FloorMap floor({0.0, 0.0}, 0.125, 8, 9);
+  floor.log_odds.assign(floor.size(), 2.0F);
+  for (int x = 0; x < 8; ++x) floor.log_odds[floor.index({x, 5})] = -2.0F;
+  for (int y = 0; y < 9; ++y) floor.log_odds[floor.index({7, y})] = -2.0F;
+  const PathField paths =
+      make_path_field(floor, {0.9375, 0.0625, 0.0}, {.footprint_radius_m = 0.0, .margin_m = 0.0});
+  EXPECT_EQ(Outlooks(paths).towards(floor.centre({0, 3})), floor.index({0, 5}));
+}
+
 using Ways = std::vector<double>;
 
 /// From one cell over all that the scanner knows to be free, by relaxing until nothing changes.
