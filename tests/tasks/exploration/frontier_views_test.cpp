@@ -119,6 +119,9 @@ TEST_F(FrontierViews, AreOutOfReachIfTheRobotCannotComeNear) {
   EXPECT_TRUE(near[2].reachable);
   EXPECT_FALSE(near[3].reachable);
   EXPECT_TRUE(std::isinf(near[3].path_length_m));
+  const Eigen::Vector2d frontier = find_frontiers(grid_, task_.frontiers).at(3).p_m.head<2>();
+  task_.reach_m = (place_of_view(near[3]) - frontier).norm();
+  EXPECT_TRUE(views(false)[3].reachable) << "just so";
   for (const bool all : {false, true}) {
     task_.reach_m = all ? 1.0 : 2.0;
     const std::vector<Candidate> any = views(all);
