@@ -244,10 +244,14 @@ TEST(ObservingPoses, AreInTheMiddleOfSquares) {
   EXPECT_EQ(evaluator.left_out()->cells, 0U);
 }
 
-/// The robot is shut in one of three rooms of 3 x 3 m; where the fourth would be all is solid.
+/// The robot is shut in one of three rooms of 3 x 3 m; where the fourth would be there is one of
+/// half the size, too small, and all else is solid.
 TEST(UnreachedRooms, AreThoseThatAreLargeEnough) {
   AskedScene scene(closed_room(2.0, 2.0, 1.5) + closed_room(-2.0, 2.0, 1.5) +
-                       closed_room(2.0, -2.0, 1.5) + slab_of(-3.6, -3.6, -0.4, -0.4, 0.0, 1.0),
+                       closed_room(2.0, -2.0, 1.5) + slab_of(-3.6, -3.6, -2.76, -0.4, 0.0, 1.0) +
+                       slab_of(-1.24, -3.6, -0.4, -0.4, 0.0, 1.0) +
+                       slab_of(-2.76, -3.6, -1.24, -2.76, 0.0, 1.0) +
+                       slab_of(-2.76, -1.24, -1.24, -0.4, 0.0, 1.0),
                    "[2,2,0]");
   const SimulatedExplorationRobot robot(scene.episode.setup, scene.task);
   const MobileGroundTruth truth = robot.ground_truth();
