@@ -122,6 +122,19 @@ TEST(Headroom, WhatIsBesideAWallDoesNotBlockTheFinerMap) {
   EXPECT_EQ(row(detail), "..........xx......xx");
 }
 
+TEST(Headroom, WhatIsBesideAWallDoesNotBlockTheFinerMapAtTheRimOfTheGridEither) {
+  OccupancyGrid grid = free_row();
+  for (int z = 0; z < 8; ++z) {
+    for (const int x : {1, 8}) set(grid, x, z, kOccupied);
+  }
+  for (const int x : {0, 9}) set(grid, x, 3, kOccupied);
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, kOptions, 0.25);
+  EXPECT_EQ(row(floor), "xxxx............xxxx");
+  EXPECT_EQ(row(detail), "....................");
+}
+
 TEST(Headroom, NothingBlocksTheFinerMapWhereTheRobotHasBeen) {
   OccupancyGrid grid = free_row();
   set(grid, 4, 3, kOccupied);

@@ -115,13 +115,16 @@ TEST_F(OctomapIo, StatesAloneArePrunedWhateverTheLogOdds) {
 
 TEST_F(OctomapIo, BothOfAFolderAreThoseWrittenOneByOne) {
   Rng rng(8);
-  OccupancyGrid grid = test::random_grid(table_frame(), 0.05, 0.5, rng);
-  for (std::size_t i = 0; i < grid.size() / 2; ++i) grid.log_odds[i] = -2.0F;  // there is to prune
-  write_octomaps(grid, directory_);
-  for (const char* extension : {".bt", ".ot"}) {
-    const fs::path alone = directory_ / (std::string("alone") + extension);
-    write_octomap(grid, alone);
-    EXPECT_EQ(read_file(directory_ / (std::string("map") + extension)), read_file(alone));
+  const GridFrame not_cubic = make_grid_frame({-3.3, 12.1, 0.4}, {3.0, 1.7, 1.1}, {20, 17, 8});
+  for (const GridFrame& frame : {table_frame(), not_cubic}) {
+    OccupancyGrid grid = test::random_grid(frame, 0.05, 0.5, rng);
+    std::fill_n(grid.log_odds.begin(), grid.size() / 2, -2.0F);  // there is to prune
+    write_octomaps(grid, directory_);
+    for (const char* extension : {".bt", ".ot"}) {
+      const fs::path alone = directory_ / (std::string("alone") + extension);
+      write_octomap(grid, alone);
+      EXPECT_EQ(read_file(directory_ / (std::string("map") + extension)), read_file(alone));
+    }
   }
 }
 

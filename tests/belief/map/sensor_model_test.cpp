@@ -254,6 +254,21 @@ TEST(SensorModel, EvidenceReachesAsManyCellsHoweverLargeTheyAre) {
   }
 }
 
+/// The middles of the next cells are as far as the evidence reaches, to the bit.
+TEST(SensorModel, EvidenceReachesCellsJustAtItsEnd) {
+  GridFrame frame;
+  frame.cells = {5, 5, 5};
+  OccupancyGrid grid(frame);
+  const Eigen::Vector3f point(2.5F, 2.5F, 2.5F);
+  add_measurements(grid, {&point, 1}, {.p_occupied_peak = 0.6, .spread_sigmas = 1.0 / 0.65});
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Array3i beside(2, 2, 2);
+    beside[axis] += 1;
+    EXPECT_GT(grid.log_odds[frame.index(beside)], 0.0F) << axis;
+  }
+  EXPECT_EQ(grid.log_odds[frame.index({3, 3, 2})], 0.0F);
+}
+
 /// The neighbours of the only point, along every axis, above all points and below.
 TEST(SensorModel, EvidenceReachesAsFarAlongEveryAxis) {
   OccupancyGrid grid(small_frame());
