@@ -14,6 +14,7 @@
 #include "tests/planners/navigation/ascii_floor.hpp"
 #include "tests/planners/navigation/drawn_rooms.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
+#include "vantage/core/rng.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 
 namespace vantage {
@@ -51,6 +52,35 @@ TEST(PathLengths, AreThoseOfTheSearchFromThere) {
   }
 }
 
+TEST(PathLengths, OfRandomFloorsAreThoseOfTheSearchFromEachCell) {
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = 0.4;
+  Rng rng(4);
+  int reached = 0;
+  for (int world = 0; world < 4; ++world) {
+    FloorMap map(Eigen::Vector2d::Zero(), 0.5, 8, 6);
+    for (float& log_odds : map.log_odds) log_odds = rng.uniform() < 0.2 ? 3.0F : -3.0F;
+    map.log_odds.front() = -3.0F;
+    const PathField field = make_path_field(map, {0.25, 0.25, 0.0}, options);
+    std::vector<Eigen::Vector2d> places;
+    for (std::size_t i = 0; i < map.size(); ++i) places.push_back(map.centre(map.cell(i)));
+    const Eigen::MatrixXd lengths_m = path_lengths_m(field, places, 1);
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      const PathField from = make_path_field(map, {places[i].x(), places[i].y(), 0.0}, options);
+      for (std::size_t j = 0; j < map.size(); ++j) {
+        const double length_m =
+            lengths_m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        const bool way = field.reachable(i) && field.reachable(j);
+        ASSERT_EQ(std::isinf(length_m), !way && i != j) << world << " " << i << " " << j;
+        if (!way) continue;
+        ASSERT_NEAR(length_m, from.cost[j], 1e-5) << world << " " << i << " " << j;
+        ++reached;
+      }
+    }
+  }
+  EXPECT_GT(reached, 1000);
+}
+
 TEST(PathLengths, GoRoundWallsAndAreTheSameBothWays) {
   const PathField field = make_path_field(floor_of(kRooms), place_of(kRooms, 'S'), point_robot());
   const std::vector<Eigen::Vector2d> places{at('A'), at('B')};
@@ -83,8 +113,8 @@ TEST(PathLengths, AreInfiniteToWhatCannotBeReached) {
 }
 
 /// 200 x 200 m, more cells than a search settles between two polls.
-PathField field_of_open_floor() {
-  FloorMap map(Eigen::Vector2d::Zero(), 1.0, 200, 200);
+PathField field_of_open_floor(int nx = 200, int ny = 200) {
+  FloorMap map(Eigen::Vector2d::Zero(), 1.0, nx, ny);
   for (float& log_odds : map.log_odds) log_odds = -3.0F;
   return make_path_field(map, {0.5, 0.5, 0.0}, point_robot());
 }
@@ -125,6 +155,11 @@ TEST(PathLengths, AskNowAndThenWhetherToGoOn) {
   const std::vector<Eigen::Vector2d> near{{0.5, 0.5}, {1.5, 0.5}, {1.6, 0.6}};
   EXPECT_NEAR(path_lengths_m(field, near, 1)(0, 2), 1.0, 1e-5);
   EXPECT_EQ(asked, 3) << "a search ends with the last place, two of one cell too";
+  const PathField one_cell_less = field_of_open_floor(217, 151);
+  asked = 0;
+  const std::vector<Eigen::Vector2d> corners{{0.5, 0.5}, {216.5, 150.5}};
+  EXPECT_NEAR(path_lengths_m(one_cell_less, corners, 1)(0, 1), 66.0 + 150.0 * std::sqrt(2.0), 0.01);
+  EXPECT_EQ(asked, 2) << "after 32 767 cells not yet";
 }
 
 TEST(PathLengths, PayForClearanceAsPathsDo) {
@@ -177,6 +212,41 @@ TEST(PathLengths, AreInfiniteBetweenPlacesOfARoomThatIsNotReached) {
   const std::vector<Eigen::Vector2d> places{position(place_of(rows, 'A')),
                                             position(place_of(rows, 'B'))};
   EXPECT_TRUE(std::isinf(path_lengths_m(field, places, 1)(0, 1)));
+  PathField two_starts = field;
+  two_starts.cost[field.map.index(field.map.cell_at(places[0]))] = 0.0;
+  const std::vector<Eigen::Vector2d> apart{position(place_of(rows, 'S')), places[0]};
+  EXPECT_TRUE(std::isinf(path_lengths_m(two_starts, apart, 1)(0, 1)));
+}
+
+/// Of the ends of a row of 11 cells, which these passages lead past. Poses are from 11 on.
+double length_past_m(const std::vector<NarrowEdge>& passages) {
+  const Drawing row{"A.........B"};
+  PathField field = make_path_field(floor_of(row), place_of(row, 'A'), point_robot());
+  for (const NarrowEdge& edge : passages) {
+    field.narrow.resize(std::max(field.narrow.size(), std::max(edge.from, edge.to) - 10));
+  }
+  field.narrow_edges = passages;
+  const std::vector<Eigen::Vector2d> places{position(place_of(row, 'A')),
+                                            position(place_of(row, 'B'))};
+  return path_lengths_m(field, places, 1)(0, 1);
+}
+
+TEST(PathLengths, GoThroughPassagesThatCostLessThanTheFloor) {
+  EXPECT_NEAR(length_past_m({{0, 11, 1.0, 2.0}, {12, 11, 7.5, 3.0}, {12, 10, 1.0, 4.0}}), 9.0, 1e-5)
+      << "which cost 9.5, the floor 10";
+  EXPECT_NEAR(length_past_m({{0, 11, 1.0, 2.0}, {12, 11, 8.5, 3.0}, {12, 10, 1.0, 4.0}}), 10.0,
+              1e-5)
+      << "these would cost 10.5";
+}
+
+TEST(PathLengths, OfTwoPassagesAreThatOfTheCheaperHoweverLittleItIsOrOfTheFirst) {
+  EXPECT_NEAR(
+      length_past_m(
+          {{0, 11, 1e-8, 2.0}, {11, 10, 1e-8, 3.0}, {0, 12, 1e-8, 1.0}, {12, 10, 5e-9, 1.0}}),
+      2.0, 1e-5);
+  EXPECT_NEAR(
+      length_past_m({{0, 11, 1.0, 2.0}, {11, 10, 1.0, 3.0}, {0, 12, 1.0, 1.0}, {12, 10, 1.0, 1.0}}),
+      5.0, 1e-5);
 }
 
 /// A nearly square robot in a closed corridor, which looks for a way out ahead first and then on
