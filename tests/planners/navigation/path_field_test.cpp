@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/planners/navigation/ascii_floor.hpp"
+#include "tests/planners/navigation/drawn_rooms.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
@@ -258,6 +259,39 @@ TEST(PathField, AsksNowAndThenWhetherToGoOn) {
   const StopPoll poll([&] { ++asked; });
   make_path_field(map, {100.5, 100.5, 0.0}, point_robot());
   EXPECT_EQ(asked, 202 + 202 + 1);
+  FloorMap one_cell_less(Eigen::Vector2d::Zero(), 1.0, 217, 151);
+  for (float& log_odds : one_cell_less.log_odds) log_odds = -3.0F;
+  asked = 0;
+  make_path_field(one_cell_less, {100.5, 100.5, 0.0}, point_robot());
+  EXPECT_EQ(asked, 153 + 219) << "after 32 767 cells not yet";
+}
+
+TEST(PathField, OneCellIsAnOpenPlaceForADisc) {
+  const FloorMap map = floor_of({".#."});
+  EXPECT_TRUE(make_path_field(map, {0.5, 0.5, 0.0}, point_robot()).reaches_open_place());
+  EXPECT_FALSE(make_path_field(map, {9.5, 0.5, 0.0}, point_robot()).reaches_open_place());
+  const FloorMap row = floor_of({"..."});
+  EXPECT_TRUE(make_path_field(row, {0.5, 0.5, 0.0}, point_robot()).reaches_open_place());
+}
+
+/// Of cells of 0.5 m.
+TEST(PathField, AnOpenPlaceHasAsManyCellsAsItsAreaNeedsAndAtLeastOne) {
+  FloorMap map = floor_of({"....."});
+  map.cell_m = 0.5;
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = 0.4;
+  PathField field = make_path_field(map, {0.25, 0.25, 0.0}, options);
+  const auto opens = [&](double least_area_m2, std::size_t reached) {
+    field.space = DrawnRooms(1.0, 1.0, {})
+                      .space({.outline = rectangle(0.4, 0.2)}, {.least_area_m2 = least_area_m2});
+    std::ranges::fill(field.cost, kInfinity);
+    std::fill_n(field.cost.begin(), reached, 1.0);
+    return field.reaches_open_place();
+  };
+  EXPECT_FALSE(opens(0.0, 0));
+  EXPECT_TRUE(opens(0.0, 1));
+  EXPECT_FALSE(opens(0.6, 2));
+  EXPECT_TRUE(opens(0.6, 3));
 }
 
 TEST(PathField, OfARobotOutsideTheMapReachesNothing) {
