@@ -132,11 +132,11 @@ TEST(AdvanceRow, LessThanATraceIsNotSeenAndOpaqueCellsStopAlmostAll) {
   advance_row(random.row(0.5F, 40.0F, 0.0F), 0, 0, 1, visible.data(), utility.data());
   EXPECT_NEAR(visible[0], 1.0 / 256.0, 1e-7);
   std::ranges::fill(random.straight, 0.0F);
-  for (const float arrives : {0.0019F, 0.0021F}) {
+  for (const float arrives : {0.0019F, kDark, 0.0021F}) {
     std::ranges::fill(random.arriving, arrives);
     advance_row(random.row(0.5F, 40.0F, 0.0F), 0, 0, 1, visible.data(), utility.data());
     EXPECT_FLOAT_EQ(visible[0], arrives);
-    EXPECT_FLOAT_EQ(utility[0], arrives < 0.002F ? 0.0F : arrives);
+    EXPECT_FLOAT_EQ(utility[0], arrives > 0.002F ? arrives : 0.0F);
   }
 }
 
