@@ -112,7 +112,7 @@ endfunction()
 
 # vantage_test(FOLDER SOURCES ... LINK ... [TIMEOUT seconds] [LONG suites ...] [CALCULATES]): one GoogleTest program per
 # folder, test_FOLDER, and a test of CTest for each of its suites; those that may take longest begin first, and
-# `./test --short` leaves the LONG ones out, which take a minute or so each. Not optimised, tests
+# `./test --short` leaves the LONG ones out, which take half a minute and more. Not optimised, tests
 # compile in half the time and most run as fast, as their time is spent in the libraries; not those that CALCULATE, by
 # themselves or by templates of the libraries.
 function(vantage_test folder)
