@@ -1,6 +1,6 @@
 # vantage_discover_suites(TARGET PREFIX TIMEOUT LONG): a test of CTest for each suite of a GoogleTest program, found when
 # the program is built. A process for each test would spend more time on loading libraries than on tests. The suites
-# named in LONG, parted by blanks, begin first, and have the label `long`: `./test --short` leaves them out.
+# named in LONG, separated by spaces, begin first, and have the label `long`: `./test --short` leaves them out.
 #
 # Run as a script by that build: writes FILE with the suites of PROGRAM.
 
@@ -12,21 +12,20 @@ if(CMAKE_SCRIPT_MODE_FILE)
     message(FATAL_ERROR "${PROGRAM}: has no tests")
   endif()
   set(tests "")
+  math(EXPR cost "${TIMEOUT} / 100")
   separate_arguments(long UNIX_COMMAND "${LONG}")
   foreach(suite IN LISTS suites)
     string(STRIP "${suite}" suite)
     string(REGEX REPLACE "[.]$" "" suite "${suite}")
-    math(EXPR cost "${TIMEOUT} / 100")
-    set(labels "")
+    set(order "COST ${cost}")
     if(suite IN_LIST long)
-      set(cost 100)
-      set(labels "LABELS long")
+      set(order "COST 100 LABELS long")
       list(REMOVE_ITEM long "${suite}")
     endif()
     string(APPEND tests
       "add_test(\"${PREFIX}.${suite}\" \"${PROGRAM}\" \"--gtest_filter=${suite}.*\")\n"
       "set_tests_properties(\"${PREFIX}.${suite}\" PROPERTIES WORKING_DIRECTORY \"${FOLDER}\" TIMEOUT ${TIMEOUT}\n"
-      "  COST ${cost} ${labels} SKIP_REGULAR_EXPRESSION \"every test was skipped\")\n")
+      "  ${order} SKIP_REGULAR_EXPRESSION \"every test was skipped\")\n")
   endforeach()
   if(long)
     message(FATAL_ERROR "${PROGRAM}: no such suites: ${long}")
