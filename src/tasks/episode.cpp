@@ -78,10 +78,11 @@ ConfigNode with_one_start(const ConfigNode& root) {
   return without_start(root, by_pose ? "start_site" : "start_pose");
 }
 
-/// What concerns the task and the rest of the episode.
-void check_together(const ConfigNode& root, const EpisodeOptions& options, const Task& task) {
+/// @throws ConfigError of `check`, which begins with the key, with the place of that key
+template <class Check>
+void check_at_place(const ConfigNode& root, const Check& check) {
   try {
-    std::visit([&](const auto& t) { t.check_with(options); }, task);
+    check();
   } catch (const ConfigError& error) {
     throw ConfigError(detail::place_of(root, error.what()) + error.what());
   }
@@ -115,7 +116,7 @@ void read_episode(const ConfigNode& said, EpisodeOptions& options, Task& task) {
   options.fields(reader);
   std::visit([&](auto& t) { t.fields(reader); }, task);
   reader.finish();
-  check_together(root, options, task);
+  check_at_place(root, [&] { std::visit([&](const auto& t) { t.check_with(options); }, task); });
 }
 
 ResolvedEpisode load_episode(const std::filesystem::path& path,
@@ -148,11 +149,10 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
   setup.options.scene = lasting_name(setup.scene);
   setup.options.robot.model = lasting_name(robot_path);
   std::visit([&](auto& task) { task.find_files(base); }, resolved.task);
-  std::visit(
-      [&](auto& task) {
-        if constexpr (requires { task.resolve(setup); }) task.resolve(setup);
-      },
-      resolved.task);
+  const auto resolve = [&](auto& task) {
+    if constexpr (requires { task.resolve(setup); }) task.resolve(setup);
+  };
+  check_at_place(root, [&] { std::visit(resolve, resolved.task); });
   return resolved;
 }
 

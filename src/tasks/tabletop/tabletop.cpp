@@ -18,6 +18,16 @@ namespace {
 /// What each view truly sees is worked out cell by cell.
 constexpr double kMaxCellsOfAllViews = 2147483648.0;
 
+void require_few_cells(const Tabletop& task) {
+  const double views = static_cast<double>(task.candidates.positions) *
+                       static_cast<double>(task.candidates.yaw_offsets_rad.size());
+  if (task.map.count() * views <= kMaxCellsOfAllViews) return;
+  throw ConfigError(
+      fmt::format("map.cells: {:.3g} cells times {} views of candidates.positions and "
+                  "candidates.yaw_offsets_rad is more than 2^31",
+                  task.map.count(), views));
+}
+
 }  // namespace
 
 GroundTruthMapEvaluator tabletop_evaluator(const Tabletop& task, int threads,
@@ -39,14 +49,6 @@ void Tabletop::check_with(const EpisodeOptions& episode) const {
         "laser.line_rate_hz: {} must be 1 / simulation.control_period_s = {}: a line per tick",
         laser.line_rate_hz, 1.0 / period_s));
   }
-  const double views = static_cast<double>(candidates.positions) *
-                       static_cast<double>(candidates.yaw_offsets_rad.size());
-  if (map.count() * views > kMaxCellsOfAllViews) {
-    throw ConfigError(
-        fmt::format("map.cells: {:.3g} cells times {} views of candidates.positions and "
-                    "candidates.yaw_offsets_rad is more than 2^31",
-                    map.count(), views));
-  }
   if (episode.robot.start_view >= candidates.positions) {
     throw ConfigError(fmt::format("robot.start_view: {} is not below candidates.positions = {}",
                                   episode.robot.start_view, candidates.positions));
@@ -58,6 +60,7 @@ void Tabletop::resolve(const EpisodeSetup& setup) {
     if (const auto found = scene_table(setup.scene, table)) follow_table(map, *found);
   }
   map.fill_in();
+  require_few_cells(*this);
 }
 
 ModelSource Tabletop::model_source(const EpisodeSetup& setup) const {

@@ -62,6 +62,21 @@ TEST(TableRegion, WhatTheEpisodeSaysStays) {
   EXPECT_THAT(*cells.size_m, ElementsAre(1.2, 0.8, 0.504));
 }
 
+/// What counts is the map as it follows the table, not what is the default.
+TEST(TableRegion, HasNoMoreCellsThanAllViewsMaySee) {
+  const OwnScene large(table_at(0.0, 0.0, 0.42, 1.0, 1.0));
+  EXPECT_NO_THROW(resolved(large.path(), {"candidates.positions=170"}));
+  try {
+    resolved(large.path(), {"candidates.positions=200"});
+    FAIL() << "more than 4 million cells of 600 views";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("cells times 600 views"));
+    EXPECT_THAT(error.what(), HasSubstr("--set candidates.positions: "));
+  }
+  const OwnScene small(table_at(0.0, 0.0, 0.42, 0.3, 0.3));
+  EXPECT_NO_THROW(resolved(small.path(), {"candidates.positions=1000"}));
+}
+
 TEST(TableRegion, TheResolvedEpisodeHasNumbers) {
   const OwnScene scene(table_at(0.0, 0.0, 0.42, 0.5, 0.5));
   const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
