@@ -59,7 +59,7 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
 /// The way home closes the last loop, of what was driven out.
 void ExplorationParts::end() {
   navigator_.on_the_way = nullptr;  // nothing more is looked at
-  MappingParts::end(views_);
+  MappingParts::end(explored().empty() ? views_ : std::vector<Candidate>{});
   if (const auto correction = navigator_.correct_over_loops()) correct_map(*correction, false);
   note_agreeing_loops();
 }
@@ -175,13 +175,18 @@ bool ExplorationParts::is_enough() const {
 }
 
 std::string ExplorationParts::finished() const {
+  const std::string reason = explored();
+  return reason.empty() ? limit_reached(views_) : reason;
+}
+
+std::string ExplorationParts::explored() const {
   if (views_.empty()) return "no frontier is left that can be looked at from a new place in reach";
   const auto& left = scans_.back().left;
   if (left && left->confidence >= task_.stop.confidence) {
     return fmt::format("explored: {:.0f} % of what can be seen has been seen, {:.1f} % sure (stop)",
                        100.0 * task_.stop.share, 100.0 * left->confidence);
   }
-  if (!is_enough()) return limit_reached(views_);
+  if (!is_enough()) return {};
   return fmt::format(
       "explored: {} in a row, no view promised more than {:g} % of what is known (enough.share)",
       task_.enough.scans, 100.0 * task_.enough.share);

@@ -50,6 +50,8 @@ class ExplorationParts : public MappingParts {
   void judge_what_is_left();
   void update_stopping_criterion();
   [[nodiscard]] bool is_enough() const;
+  /// Why no view is worth taking; empty if one is.
+  [[nodiscard]] std::string explored() const;
 
   const Exploration task_;
   ExplorationRobotInterface& exploring_robot_;

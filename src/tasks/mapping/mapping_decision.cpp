@@ -103,7 +103,7 @@ std::size_t MappingParts::chosen_outside(std::vector<Candidate>& candidates) {
 void MappingParts::end(const std::vector<Candidate>& views) {
   if (outside_ != nullptr && outside_->ended) {
     const BlockField of_unobserved = transmission();
-    const bool at_limit = !views.empty() && !limit_reached(views).empty();
+    const bool at_limit = !views.empty() && (scans_left() == 0 || !budget_.affords_any(views));
     outside_->ended(
         map_situation({belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left()}),
         at_limit);

@@ -121,7 +121,7 @@ class MappingParts {
   /// can be paid; else empty.
   [[nodiscard]] std::string limit_reached(const std::vector<Candidate>& views) const;
   /// After the last scan: tells a choice from outside, and drives back to the start if that is
-  /// asked for. @param views that are left
+  /// asked for. @param views worth taking that are left
   void end(const std::vector<Candidate>& views);
 
   const EpisodeOptions& episode_;

@@ -300,5 +300,30 @@ TEST(ExplorationParts, GoOnWhileItIsNotSureThatEnoughHasBeenSeen) {
   }
 }
 
+/// A choice from outside is told why the episode ended: what is explored was not cut short.
+TEST(ExplorationParts, WhatIsExploredIsNotAtItsLimit) {
+  for (const std::string limit : {"scans=1", "budget.time_s=0.001"}) {
+    ScriptedDrive drive({limit, "stop.confidence=0.8"});
+    std::optional<bool> at_limit;
+    const OutsideChoice outside{.name = "mine",
+                                .decide = {},
+                                .ended = [&](const MapSituation&, bool told) { at_limit = told; }};
+    MappingContext context = drive.context();
+    context.outside = &outside;
+    drive.belief.update(wall_view(1.5F), {});
+    drive.belief.refill();
+    OpenExploration parts(context, drive.task, drive.robot, drive.belief);
+    parts.open_floor();
+    parts.record_as(5000.0, 0);
+    LeftRecord left;
+    for (const double confidence : {0.79, 0.8}) {
+      left.confidence = confidence;
+      parts.scans_.back().left = left;
+      parts.end();
+      EXPECT_EQ(at_limit, confidence < 0.8) << limit;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -39,6 +39,10 @@ std::vector<BudgetKeeper::Trip> BudgetKeeper::trips_to(const std::vector<Candida
   const auto from_here = navigator_.plan();
   std::vector<Trip> trips;
   for (const Candidate& view : views) {
+    if (view.exhausted) {
+      trips.emplace_back();
+      continue;
+    }
     const Pose2 base = robot_.base_for_sensor(view.T_world_sensor);
     const double back_m = home ? way_home_m(from_home, position(base)) : 0.0;
     // One that is too far from what it is to look at may be taken for want of a better one.
@@ -52,21 +56,19 @@ std::vector<BudgetKeeper::Trip> BudgetKeeper::trips_to(const std::vector<Candida
 void BudgetKeeper::leave_affordable(std::vector<Candidate>& views) const {
   if (!budget_.options().is_limited()) return;
   const std::vector<Trip> trips = trips_to(views);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    views[i].exhausted = views[i].exhausted || !trips[i].is_affordable;
-  }
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].exhausted = !trips[i].is_affordable;
+}
+
+bool BudgetKeeper::affords_any(const std::vector<Candidate>& views) const {
+  return !budget_.options().is_limited() ||
+         std::ranges::any_of(trips_to(views), &Trip::is_affordable);
 }
 
 std::string BudgetKeeper::used_up(const std::vector<Candidate>& views, std::size_t scans) const {
   if (!budget_.options().is_limited()) return {};
   const std::vector<Trip> trips = trips_to(views);
-  bool is_in_reach = false;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (views[i].exhausted) continue;
-    if (trips[i].is_affordable) return {};
-    is_in_reach = is_in_reach || trips[i].has_ways;
-  }
-  if (is_in_reach) return too_small(scans);
+  if (std::ranges::any_of(trips, &Trip::is_affordable)) return {};
+  if (std::ranges::any_of(trips, &Trip::has_ways)) return too_small(scans);
   const std::string reason =
       std::string("no view is left in reach") + (keeps_way_home() ? " that has a way back" : "");
   if (scans <= 1) throw EpisodeFailed(reason);

@@ -27,6 +27,8 @@ class BudgetKeeper {
   void observe(const ScanRecord& scan, const ScanRecord* before) { rates_.observe(scan, before); }
   /// Marks views that cannot be paid as exhausted. Nothing without a limit.
   void leave_affordable(std::vector<Candidate>& views) const;
+  /// Whether the limits leave a view to take.
+  [[nodiscard]] bool affords_any(const std::vector<Candidate>& views) const;
   /// Why no view can be taken any more: none is in reach, or none of those is affordable; empty if
   /// one can, or without a limit. @throws EpisodeFailed if that is so after the first scan
   [[nodiscard]] std::string used_up(const std::vector<Candidate>& views, std::size_t scans) const;
@@ -41,7 +43,7 @@ class BudgetKeeper {
   void add_metrics(nlohmann::ordered_json& metrics) const;
 
  private:
-  /// To a view, and home if a way home is kept.
+  /// To a view, and home if a way home is kept; none to one that is exhausted.
   struct Trip {
     bool has_ways = false;
     bool is_affordable = false;
