@@ -139,8 +139,9 @@ inline const std::map<std::string, Rooms> kAllowed{
     {"tasks/table_map", kTask},
     {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
     {"study/figures", {"core", "geometry", "information", "report"}},
-    {"study/recognition", kGround + kRecognition + kRuntime +
-                              Rooms{"belief/objects", "belief/observation", "study/figures"}},
+    {"study/recognition",
+     kGround + kRecognition + kRuntime +
+         Rooms{"belief/objects", "belief/observation", "report", "study/figures"}},
     {"study/kit", kGround + kRuntime + Rooms{"tasks"}},
     {"study/cluster", {"core"}},
     {"study/tables", {"core", "information", "report", "runtime", "study/figures"}},

@@ -8,6 +8,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/report/report_data.hpp"
 #include "vantage/runtime/json.hpp"
 #include "vantage/runtime/manifest.hpp"
 #include "vantage/study/recognition/recognition_study.hpp"
@@ -112,8 +113,9 @@ std::string trials_csv(const RecognitionStudy& study) {
   for (const MethodTrials& method : study.methods) {
     for (std::size_t i = 0; i < method.trials.size(); ++i) {
       const Trial& t = method.trials[i];
-      csv += fmt::format("\"{}\",{},{},{},{:d},{:d},{},", method.method, i, t.name,
-                         name(t.estimate), t.correct, t.category_correct, t.observations);
+      csv +=
+          fmt::format("\"{}\",{},{},{},{:d},{:d},{},", method.method, i, csv_field(t.name),
+                      csv_field(name(t.estimate)), t.correct, t.category_correct, t.observations);
       csv += method.label_only
                  ? ",,,,,,,\n"
                  : fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", t.bin_error,
@@ -131,9 +133,10 @@ std::string unknown_csv(const RecognitionStudy& study) {
   for (const MethodTrials& method : study.methods) {
     for (std::size_t i = 0; i < method.unknown.trials.size(); ++i) {
       const Trial& t = method.unknown.trials[i];
-      csv += fmt::format("\"{}\",{},{},{:d},{},{:d},{},{:.6g}\n", method.method, i, t.name,
-                         bool{method.unknown.category_known[i]}, name_of(study.states, t.estimate),
-                         t.category_correct, t.observations, t.unknown_probability);
+      csv += fmt::format("\"{}\",{},{},{:d},{},{:d},{},{:.6g}\n", method.method, i,
+                         csv_field(t.name), bool{method.unknown.category_known[i]},
+                         csv_field(name_of(study.states, t.estimate)), t.category_correct,
+                         t.observations, t.unknown_probability);
     }
   }
   return csv;

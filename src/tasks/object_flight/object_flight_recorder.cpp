@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/report/report_data.hpp"
 #include "vantage/runtime/scene_file.hpp"
 
 namespace vantage {
@@ -60,12 +61,13 @@ std::string steps_row(const ObservationRecord& record, std::size_t number) {
   return fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}",
       record.time_s, number, record.bearing_id, pose_columns(forward_pose(record.T_world_camera)),
-      report.view_rad, fmt::join(report.features, " "), report.entropy_bits, record.estimate,
-      record.map_probability, record.gain_bits, report.feature_time_s, report.selection_time_s,
-      report.view_time_s, record.flight ? to_string(flight.status) : "", flight.duration_s,
-      record.path_length_m, record.leg_length_m, flight.energy_J, record.object_px,
-      record.target + 1, record.expected_visible, record.seen_share, record.position_error_m,
-      record.angle_error_rad, record.bin_error, record.collisions, change_columns(record));
+      report.view_rad, fmt::join(report.features, " "), report.entropy_bits,
+      csv_field(record.estimate), record.map_probability, record.gain_bits, report.feature_time_s,
+      report.selection_time_s, report.view_time_s, record.flight ? to_string(flight.status) : "",
+      flight.duration_s, record.path_length_m, record.leg_length_m, flight.energy_J,
+      record.object_px, record.target + 1, record.expected_visible, record.seen_share,
+      record.position_error_m, record.angle_error_rad, record.bin_error, record.collisions,
+      change_columns(record));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/report/report_data.hpp"
 #include "vantage/runtime/scene_file.hpp"
 #include "vantage/tasks/flight/simulated_quadrotor.hpp"
 
@@ -56,7 +57,7 @@ std::string observation_row(int object, const ObjectObservation& observation, in
                      observation.bearing_rad, observation.distance_m, observation.elevation_rad,
                      observation.pixels, fmt::join(observation.report.features, " "),
                      observation.report.feature_time_s, observation.entropy_nats,
-                     observation.estimate, observation.map_probability);
+                     csv_field(observation.estimate), observation.map_probability);
 }
 
 /// The crop, what the mask leaves out darker.

@@ -9,6 +9,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/hash.hpp"
+#include "vantage/report/report_data.hpp"
 
 namespace vantage {
 namespace {
@@ -218,6 +219,18 @@ TEST(RecognitionTables, SkipMethodsOfWhichThereIsNothingToTell) {
   EXPECT_THAT(text,
               HasSubstr(fmt::format("] | 25.00 [{:.2f}, {:.2f}] | 50.0 | 25.0 | 100.0 | - |\n",
                                     100.0 * alarms.low, 100.0 * alarms.high)));
+}
+
+TEST(RecognitionTables, AnyNameOfAnObjectIsOneField) {
+  const support::TemporaryDirectory folder;
+  RecognitionStudy study = written_study();
+  study.states.objects[0] = "mug, blue";
+  study.methods[0].trials[0].name = study.methods[0].unknown.trials[0].name = "jug, \"red\"";
+  write_recognition_study(study, folder.path());
+  const auto first_row = [&](const char* name) { return read_csv(folder / name).rows.at(0); };
+  EXPECT_THAT(first_row("results.csv"), testing::Contains("mug, blue"));
+  EXPECT_THAT(first_row("results.csv"), testing::Contains("jug, \"red\""));
+  EXPECT_THAT(first_row("unknown.csv"), testing::Contains("jug, \"red\""));
 }
 
 TEST(RecognitionTables, FilesHoldTheSame) {

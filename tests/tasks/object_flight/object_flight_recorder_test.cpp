@@ -82,6 +82,14 @@ CameraImages small_image() {
   return image;
 }
 
+TEST(ObjectFlightRecorder, AnyNameOfAnObjectIsOneField) {
+  RoomRecorder room(false);
+  ObservationRecord record;
+  record.estimate = "mug \"blue\"";
+  room.recorder.observation(record, 1, small_image(), std::nullopt);
+  EXPECT_EQ(room.step.at("estimate"), "\"mug \"\"blue\"\"\"");
+}
+
 TEST(ObjectFlightRecorder, ARowHasAllOfItsRecord) {
   RoomRecorder room(true);
   ObservationRecord record;

@@ -234,7 +234,7 @@ TEST(FlightRecords, HaveARowALook) {
   observation.report.features = {"colour", "sift"};
   observation.report.feature_time_s = 0.125;
   observation.entropy_nats = 0.75;
-  observation.estimate = "mug_1";
+  observation.estimate = "mug, blue";
   observation.map_probability = 0.9;
   flight.recorder.observation(7, observation, 2, {});
   flight.recorder.commit();
@@ -242,7 +242,7 @@ TEST(FlightRecords, HaveARowALook) {
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0],
             (std::vector<std::string>{"12.346", "2", "7", "3", "0.5000", "1.4000", "0.6000", "321",
-                                      "colour sift", "0.125", "0.75000", "mug_1", "0.90000"}));
+                                      "colour sift", "0.125", "0.75000", "mug, blue", "0.90000"}));
 }
 
 /// The second pixel is beside the object.
