@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <mutex>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 Verbosity g_verbosity = Verbosity::normal;
 std::filesystem::path g_file;
+std::mutex g_mutex;  ///< of `g_file` and of which sinks there are
 
 constexpr double kBarEvery_s = 0.1;
 constexpr double kLineEvery_s = 2.0;
@@ -57,6 +59,7 @@ spdlog::logger& logger() {
 
 /// A line of its own, where a bar is shown in its place.
 void write_line(spdlog::level::level_enum level, std::string_view message) {
+  const std::scoped_lock lock(g_mutex);
   if (g_bar_shown && level >= console_level()) {
     std::fputs("\r\x1b[K", stderr);
     g_bar_shown = false;
@@ -98,6 +101,7 @@ void set_verbosity(Verbosity verbosity) {
 Verbosity verbosity() { return g_verbosity; }
 
 void log_to_file(const std::filesystem::path& path) {
+  const std::scoped_lock lock(g_mutex);
   auto& sinks = logger().sinks();
   sinks.resize(1);
   if (!g_file.empty()) {

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string_view>
 
 #include "vantage/core/atomic_file.hpp"
@@ -30,23 +31,33 @@ constexpr auto kRunFiles = std::to_array<std::string_view>(
      "log.txt",       "bound.json",   "branches.json",  "frames",
      "views"});
 
-/// Folders that this process runs into, so that no other does: its files would end up under the
-/// names of ours. From the beginning of an episode until its results are written; of one that
-/// throws, until the folder is run into again or the process ends.
+/// Folders that an episode of this process runs into, so that no other does: its files would end up
+/// under the names of ours. Other processes keep out from its beginning until its results are
+/// written; of one that throws, until the folder is run into again or the process ends.
 class ClaimedFolders {
  public:
-  /// @throws OutputError if another process runs into it.
+  /// @throws OutputError if another episode runs into it.
   void claim(const fs::path& directory) {
     const std::scoped_lock lock(mutex_);
     const std::string name = fs::weakly_canonical(directory).string();
+    if (!running_.insert(name).second) {
+      throw OutputError(
+          fmt::format("{}: another episode of this process runs into it", directory.string()));
+    }
     if (descriptors_.contains(name)) return;
     const int folder = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) return;  // writing into it will say why
     if (::flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(folder);
+      running_.erase(name);
       throw OutputError(fmt::format("{}: another process runs into it", directory.string()));
     }
     descriptors_[name] = folder;
+  }
+  /// The episode has ended, its folder is not released yet.
+  void leave(const fs::path& directory) {
+    const std::scoped_lock lock(mutex_);
+    running_.erase(fs::weakly_canonical(directory).string());
   }
   void release(const fs::path& directory) {
     const std::scoped_lock lock(mutex_);
@@ -59,6 +70,7 @@ class ClaimedFolders {
  private:
   std::mutex mutex_;
   std::map<std::string, int> descriptors_;
+  std::set<std::string> running_;
 };
 
 ClaimedFolders& claimed_folders() {
@@ -115,6 +127,8 @@ EpisodeRun::EpisodeRun(const RunRequest& request)
   claimed_folders().claim(directory_);
   start_s_ = wall_s();
 }
+
+EpisodeRun::~EpisodeRun() { claimed_folders().leave(directory_); }
 
 void EpisodeRun::begin() {
   remove_former_run(directory_);

@@ -71,9 +71,13 @@ Ending ending_of(const std::function<std::string()>& run);
 
 class EpisodeRun {
  public:
-  /// Makes the run folder, which no other process runs into until release_run_directory().
+  /// Makes the run folder, which nothing else runs into while this lives, and no other process
+  /// until release_run_directory().
   /// @throws ConfigError if the folder holds a run that is not to be replaced, OutputError
   explicit EpisodeRun(const RunRequest& request);
+  ~EpisodeRun();
+  EpisodeRun(const EpisodeRun&) = delete;
+  EpisodeRun& operator=(const EpisodeRun&) = delete;
 
   /// After this a former run in the folder is gone: what may fail or takes long comes before.
   /// @throws OutputError

@@ -210,8 +210,19 @@ TEST_F(EpisodeRuns, ReplaceAFormerRunAndNothingElseAsTheyBegin) {
 TEST_F(EpisodeRuns, HaveTheirFolderAloneUntilItIsReleased) {
   const RunRequest asked = request(false);
   EXPECT_TRUE(is_open_to_others());
-  const EpisodeRun run(asked);
-  EXPECT_FALSE(is_open_to_others());
+  {
+    const EpisodeRun run(asked);
+    EXPECT_FALSE(is_open_to_others());
+    try {
+      const EpisodeRun second(asked);
+      ADD_FAILURE() << "one runs into it";
+    } catch (const OutputError& error) {
+      EXPECT_EQ(error.what(),
+                folder_.path().string() + ": another episode of this process runs into it");
+    }
+    EXPECT_THROW(EpisodeRun{asked}, OutputError) << "a failed one does not let the next in";
+  }
+  EXPECT_FALSE(is_open_to_others()) << "its results may be on their way";
   EXPECT_NO_THROW(EpisodeRun{asked}) << "this process may run into it again";
   release_run_directory(folder_.path());
   EXPECT_TRUE(is_open_to_others());
