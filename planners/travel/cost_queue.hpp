@@ -22,7 +22,7 @@ class CostQueue {
   explicit CostQueue(double bucket) : per_cost_(static_cast<float>(1.0 / bucket)) {}
 
   void push(float cost, std::uint32_t node) {
-    const auto bucket = static_cast<std::size_t>(cost * per_cost_);
+    const auto bucket = static_cast<std::size_t>(std::min(cost * per_cost_, kLastBucket));
     if (bucket <= current_) {
       heap_.emplace_back(cost, node);
       std::ranges::push_heap(heap_, std::greater<>());
@@ -47,6 +47,8 @@ class CostQueue {
   }
 
  private:
+  /// Holds all that costs more, too.
+  static constexpr float kLastBucket = 1 << 20;
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   struct Waiting {
     Entry entry;

@@ -52,8 +52,9 @@ RecogniseOptions options_of(const RecogniseArguments& arguments) {
 /// that the model knows.
 std::optional<double> named_yaw_rad(const RecogniseArguments& arguments,
                                     const std::optional<PictureNotes>& notes, std::size_t index) {
-  if (!notes) return std::nullopt;
   const bool given = !arguments.view_names.empty();
+  if (!notes && given) throw ConfigError("--view-names: the model knows no views by name");
+  if (!notes) return std::nullopt;
   const std::string name =
       given ? arguments.view_names[index] : view_name_beside(arguments.files[2 * index]);
   const auto bin = bin_of_view(*notes, name);
@@ -61,8 +62,7 @@ std::optional<double> named_yaw_rad(const RecogniseArguments& arguments,
     throw ConfigError(fmt::format("--view-names: the model has no view '{}'; known: {}", name,
                                   named_views(*notes)));
   }
-  if (!bin) return std::nullopt;
-  return *bin * 2.0 * std::numbers::pi / notes->bins;
+  return bin ? std::optional(*bin * 2.0 * std::numbers::pi / notes->bins) : std::nullopt;
 }
 
 /// Turn of the camera before view `index`, from what was given, the names of the views or the

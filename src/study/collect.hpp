@@ -15,8 +15,8 @@ namespace vantage {
 ///   figures/NAME.svg, .csv, .md     StudyReport::curves
 ///   figures/EPISODE.svg             trajectory flights from above, the first of each panel and
 ///   level
-/// Episodes that came to no result (missing, crashed, diverged) are left out of everything but
-/// results.csv and summary.json, which name them; those that failed count. The text of a file
+/// Episodes that leave nothing to measure (missing, crashed, diverged) are left out of everything
+/// but results.csv and summary.json, which name them; those that failed count. The text of a file
 /// depends on the results alone. Several processes may write at once: each makes its files in a
 /// folder of its own and moves them when they are whole.
 /// @throws OutputError

@@ -21,7 +21,7 @@ struct StudyResults {
   std::filesystem::path directory;
   std::vector<PlannedEpisode> plan;
   std::vector<EpisodeState> states;                      ///< of each episode
-  std::vector<std::optional<EpisodeMeasures>> measures;  ///< of each episode that came to a result
+  std::vector<std::optional<EpisodeMeasures>> measures;  ///< of each that completed or failed
 
   [[nodiscard]] bool complete() const;  ///< every episode is completed
 };

@@ -320,6 +320,8 @@ TEST_F(RecognitionCommands, MotionsAreOneForAllOrOneEach) {
   const std::string recognise = "recognise --model model -q" + views;
   expect_error(vantage(recognise + " --motion-deg 1,2,3"), 2, {"3 turns given, there are 2"});
   expect_error(vantage(recognise + " --view-names a,b"), 2, {"2 names given, there are 3 views"});
+  expect_error(vantage(recognise + " --view-names a,b,c"), 2,
+               {"--view-names: the model knows no views by name"});
   expect_error(vantage(recognise + " one.png"), 2, {"one is missing"});
   views.clear();
   for (const int frame : {13, 1, 7}) {  // the object is at 270, 0 and 135 deg

@@ -296,6 +296,12 @@ TEST_F(CommandLine, ASplitHasAFolderOfItsOwn) {
   EXPECT_EQ(vantage("sweep plan s.yaml --split other").output, "b\n");
   file("s.yaml", study + "split: other\n");
   EXPECT_EQ(directory(), "out/s_other");
+  fs::create_directories(folder_ / "study");
+  file("study/study.yaml", study + "split: other\n");
+  expect_error(vantage("sweep collect study --split one"), 2,
+               {"--split one: study holds split 'other'"});
+  EXPECT_FALSE(fs::exists(folder_ / "study/results.csv"));
+  EXPECT_EQ(vantage("sweep collect study --split other -q").exit_code, 1) << "nothing was run";
 }
 
 TEST_F(CommandLine, AnArenaIsOfPlannersOnAMap) {

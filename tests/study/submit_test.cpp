@@ -79,6 +79,17 @@ TEST_F(Submit, AnArrayAndAJobThatCollects) {
   EXPECT_THAT(read_file(folder_ / "dir/study.yaml"), HasSubstr("factors"));
 }
 
+TEST_F(Submit, WhatCannotBeRecordedIsTakenBack) {
+  program("sbatch",
+          "[ \"$1\" != --version ] || exit 0\necho sbatch \"$@\" >>$here/calls\n"
+          "mkdir -p $here/dir/slurm/41.json/taken\necho '41;loopback'\n");
+  const ShellResult result = submit();
+  EXPECT_EQ(result.exit_code, 5) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("41.json"));
+  EXPECT_THAT(calls(), HasSubstr("scancel 41"));
+  EXPECT_THAT(calls(), Not(HasSubstr("vantage-collect"))) << "nothing more is queued";
+}
+
 TEST_F(Submit, NoMoreTasksThanEpisodes) {
   EXPECT_EQ(submit("--json").exit_code, 0);
   EXPECT_THAT(calls(), HasSubstr("--array=0-3 "));

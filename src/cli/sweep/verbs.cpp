@@ -29,7 +29,6 @@ fs::path default_folder(const Study& study) {
 }
 
 StudyResults collect(const SweepArguments& arguments, const fs::path& directory) {
-  require_study_folder(directory);
   StudyResults results = read_study_results(directory);
   const Evaluation evaluation = evaluate(results);
   write_collection(results, evaluation);
@@ -134,7 +133,14 @@ ExitCode print_study_status(const SweepArguments& arguments) {
 }
 
 ExitCode collect_study(const SweepArguments& arguments) {
-  const StudyResults results = collect(arguments, open_study(arguments).directory);
+  const fs::path directory = open_study(arguments).directory;
+  require_study_folder(directory);
+  const std::string held = read_study(directory / "study.yaml").split;
+  if (!arguments.split.empty() && arguments.split != held) {
+    throw ConfigError(
+        fmt::format("--split {}: {} holds split '{}'", arguments.split, directory.string(), held));
+  }
+  const StudyResults results = collect(arguments, directory);
   print_status(arguments, results.directory, results.plan, results.states);
   return code_of(results.states);
 }

@@ -8,7 +8,7 @@ namespace vantage {
 
 /// Ends with what `sweep collect` does.
 ExitCode run_study(const SweepArguments& arguments);
-/// Of a folder, what would run now; of a file, every episode.
+/// What has no result yet, and so would run now.
 ExitCode print_study_plan(const SweepArguments& arguments);
 ExitCode print_study_status(const SweepArguments& arguments);
 /// What there is, even if something is missing; says then what, and ends in 1.

@@ -54,10 +54,12 @@ std::string claim_text(const Worker& worker, bool released) {
 }
 
 [[noreturn]] void fail(const fs::path& file) {
-  throw OutputError(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
+  throw OutputError(fmt::format("{}: cannot write: {}", file.string(),
+                                errno != 0 ? std::strerror(errno) : "not all of it"));
 }
 
 void write_all(int descriptor, const std::string& text, const fs::path& file) {
+  errno = 0;
   const bool whole =
       ::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   if (::close(descriptor) != 0 || !whole) fail(file);

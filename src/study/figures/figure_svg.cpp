@@ -48,7 +48,8 @@ struct Axis {
 
 /// Ticks at 1, 2 or 5 times a power of ten; both ends are ticks.
 Axis axis_over(double low, double high, double wanted, double smallest_step) {
-  if (high <= low) high = low + 1.0;
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (high - low <= 1e-9 * largest) high = low + std::max(1.0, 1e-6 * largest);
   const double raw = (high - low) / wanted;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   double step = 10.0 * power;

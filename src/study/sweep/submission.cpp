@@ -9,6 +9,7 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/core/log.hpp"
 #include "vantage/runtime/json.hpp"
 #include "vantage/study/sweep/attempt.hpp"
 
@@ -80,6 +81,17 @@ std::string submit_collect(const SubmitOptions& options, const std::string& arra
   return submit_batch(arguments);
 }
 
+/// Ends what is queued already. An error of Slurm is told, not thrown: another came first.
+void take_back(const Submission& submission) {
+  std::vector<std::string> jobs{submission.array};
+  if (!submission.collect.empty()) jobs.insert(jobs.begin(), submission.collect);
+  try {
+    cancel_jobs(jobs);
+  } catch (const Error& error) {
+    log_warning(error.what());
+  }
+}
+
 }  // namespace
 
 void check_sbatch_arguments(const std::vector<std::string>& arguments) {
@@ -113,14 +125,14 @@ Submission submit(const SubmitOptions& options) {
         {"array", submission.array}, {"collect", submission.collect}, {"tasks", submission.tasks}};
     write_file(folder / (submission.array + ".json"), json_text(json));
   };
-  record();  // at once: cancel can end what is queued
   try {
+    record();  // at once: cancel can end what is queued
     submission.collect = submit_collect(options, submission.array);
+    record();
   } catch (const Error&) {
-    cancel_jobs({submission.array});
+    take_back(submission);
     throw;
   }
-  record();
   return submission;
 }
 

@@ -57,5 +57,17 @@ TEST(CostQueue, TakesMoreWhenItIsEmpty) {
   EXPECT_EQ(queue.pop(), (Entry{3.7F, 8}));
 }
 
+TEST(CostQueue, HoldsWhatCostsFarMoreThanItsBuckets) {
+  CostQueue queue(0.05);
+  for (const float cost : {3e30F, 1.0F, 1e12F, 2e12F}) queue.push(cost, 5);
+  EXPECT_EQ(queue.pop(), (Entry{1.0F, 5}));
+  EXPECT_EQ(queue.pop(), (Entry{1e12F, 5}));
+  queue.push(1.5e12F, 6);
+  for (const Entry& next : {Entry{1.5e12F, 6}, Entry{2e12F, 5}, Entry{3e30F, 5}}) {
+    EXPECT_EQ(queue.pop(), next);
+  }
+  EXPECT_FALSE(queue.pop());
+}
+
 }  // namespace
 }  // namespace vantage

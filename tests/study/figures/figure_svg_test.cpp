@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "vantage/study/figures/figure.hpp"
 
 namespace vantage {
@@ -39,6 +41,14 @@ std::string svg_between(double low, double high) {
 std::string label_at(double y, const std::string& text) {
   return fmt::format("<text x=\"58.0\" y=\"{:.1f}\" text-anchor=\"end\" font-size=\"12\">{}</text>",
                      y + 4.0, text);
+}
+
+TEST(FigurePlaces, OfValuesThatDifferInTheLastDigitAreThoseOfOne) {
+  for (const double value : {0.1, 1e7}) {
+    const std::string svg = svg_between(value, std::nextafter(value, 1e9));
+    EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    EXPECT_EQ(svg, svg_between(value, value));
+  }
 }
 
 TEST(FigurePlaces, OfAxesAndTicks) {
