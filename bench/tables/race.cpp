@@ -59,6 +59,7 @@ std::string Race::why_not_ahead() const {
     return fmt::format("gets there in {} episodes, the other in {}", arrived, other_arrived);
   }
   if (!pairs || !pairs->ratio) return "no pairs";
+  if (pairs->ratio_interval->low > 1.0) return "is behind";
   if (pairs->ratio_interval->high >= 1.0) return "the interval holds 1";
   return why_insignificant(*pairs);
 }

@@ -93,6 +93,8 @@ TEST(Race, IsAheadBeyondTheInterval) {
   EXPECT_TRUE(level.is_won_by(1.0));
   EXPECT_FALSE(level.is_ahead());
   EXPECT_EQ(level.why_not_ahead(), "the interval holds 1");
+  const Race behind = tour_takes([](const auto&) { return 110.0; });
+  EXPECT_EQ(behind.why_not_ahead(), "is behind");
 }
 
 /// The other gets to an end at two of ten tables, twice as slowly.
