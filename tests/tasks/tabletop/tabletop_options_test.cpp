@@ -41,12 +41,14 @@ TEST(TabletopOptions, StartAtAPositionOfTheRing) {
 
 TEST(TabletopOptions, BoundTheCellsOfAllViews) {
   Tabletop task;
+  task.map.centre_m = MapOptions::kCentre_m;
   task.map.cells = {512, 512, 256};
   task.candidates.yaw_offsets_rad = {0.0, 0.1};
   task.candidates.positions = 16;
-  EXPECT_EQ(complaint(task), "");
+  EXPECT_NO_THROW(task.resolve({}));
   task.candidates.positions = 17;
-  EXPECT_THAT(complaint(task), HasSubstr("times 34 views"));
+  EXPECT_THAT([&] { task.resolve({}); },
+              testing::ThrowsMessage<ConfigError>(HasSubstr("times 34 views")));
 }
 
 TEST(TabletopOptions, FindATableAsTheySay) {
