@@ -43,7 +43,7 @@ struct Tabletop : MappingOptions {
   void check_with(const EpisodeOptions& episode) const;
 
   void find_files(const std::filesystem::path& base) { find_planner(choice, base); }
-  /// The map follows the table of the scene where it is left open. @throws InputError
+  /// The map follows the scene's table where it is left open. @throws InputError, ConfigError
   void resolve(const EpisodeSetup& setup);
   [[nodiscard]] std::vector<InputFile> inputs() const { return planner_files(choice); }
   [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
