@@ -9,15 +9,16 @@
 namespace vantage {
 namespace {
 
-/// Share of a wall's slices that is occupied. Things in a shelf with boards that stand out from
-/// them take 0.85 and less: the scanner sees the things and not the boards.
+/// Shares of a wall's slices that are occupied, at the robot's height and in 35 cm above it. A full
+/// shelf, whose boards stand out from what the scanner sees in it, is a wall by the first alone.
 constexpr double kOfWall = 0.9;
+constexpr double kOfWallAbove = 0.7;
+constexpr double kAbove_m = 0.35;
 
 enum class Column { open, unseen, obstructed, wall, wall_edge };
 
 struct Slices {
-  int begin = 0;
-  int end = 0;
+  int begin, end;
 };
 
 /// The z slices with their lower faces between two heights.
@@ -38,13 +39,16 @@ class Columns {
       : nx_(grid.frame.cells.x()), ny_(grid.frame.cells.y()) {
     const Slices body = slices_between(grid.frame, options.low_m, options.high_m);
     const Slices seen = slices_between(grid.frame, options.seen_low_m, options.high_m);
+    const Slices above = slices_between(grid.frame, options.high_m, options.high_m + kAbove_m);
     const double max_unseen = options.max_unseen * (seen.end - seen.begin);
     columns_.reserve(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_));
     for (int y = 0; y < ny_; ++y) {
       for (int x = 0; x < nx_; ++x) {
         const int occupied = count(grid, x, y, body, CellState::occupied);
+        const int higher = count(grid, x, y, above, CellState::occupied);
         const int unseen = count(grid, x, y, seen, CellState::unobserved);
         const bool wall = scanner_m && occupied >= kOfWall * (body.end - body.begin) &&
+                          higher >= kOfWallAbove * (above.end - above.begin) &&
                           state_at(grid, x, y, *scanner_m) == CellState::occupied;
         columns_.push_back(wall                  ? Column::wall
                            : occupied > 0        ? Column::obstructed
@@ -129,8 +133,7 @@ class Columns {
   }
 
   [[nodiscard]] std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) +
-           static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y * nx_ + x);
   }
 
   static int count(const OccupancyGrid& grid, int x, int y, const Slices& slices, CellState state) {
@@ -159,8 +162,7 @@ void block_outside(FloorMap& floor, const GridFrame& frame,
   for (int y = 0; y < floor.ny; ++y) {
     for (int x = 0; x < floor.nx; ++x) {
       const std::size_t cell = floor.index({x, y});
-      const bool outside = !known.contains(floor.centre({x, y}));
-      floor.blocked[cell] = outside && traversed[cell] == 0 ? 1 : 0;
+      floor.blocked[cell] = !known.contains(floor.centre({x, y})) && traversed[cell] == 0 ? 1 : 0;
     }
   }
 }

@@ -44,12 +44,12 @@ struct TraversedFloor {
   std::span<const std::uint8_t> traversed;
 };
 
-/// The same of `floor`, and of the finer `detail` but for walls and posts there: columns that are
-/// occupied at nine tenths of the robot's height, at that of the planar scanner too, whose faces
-/// the scanner has measured within the cell. Nor do columns with less in them block there that
-/// touch such a one: most hold a face that is near their boundary; nor unseen ones that touch it
-/// and an open one, and are free at the scanner's height: the wall's edge hides the rest. Where the
-/// robot has been no column blocks the finer map: it has to find its way back.
+/// The same of `floor`, and of the finer `detail` but for walls and posts there: columns occupied
+/// at nine tenths of the robot's height, at the scanner's too, and above the robot, where furniture
+/// ends; the scanner has measured their faces within the cell. Nor do columns with less in them
+/// block there that touch such a one: most hold a face that is near their boundary; nor unseen ones
+/// that touch it and an open one, and are free at the scanner's height: the wall's edge hides the
+/// rest. Where the robot has been no column blocks the finer map: it has to find its way back.
 /// @param scanner_m world z of the planar scanner
 void block_columns(const TraversedFloor& floor, const TraversedFloor& detail,
                    const OccupancyGrid& grid, const HeadroomOptions& options, double scanner_m);

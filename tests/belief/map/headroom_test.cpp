@@ -80,10 +80,10 @@ TEST(Headroom, AColumnBlocksAllFloorBelowIt) {
 /// The scanner has measured the face of a wall; it has not seen what hangs above it.
 TEST(Headroom, WallsDoNotBlockTheFinerMap) {
   OccupancyGrid grid = free_row();
-  for (int z = 0; z < 8; ++z) set(grid, 2, z, kOccupied);  // a wall
-  set(grid, 4, 3, kOccupied);                              // a table top
-  for (int z = 3; z < 8; ++z) set(grid, 6, z, kOccupied);  // a cupboard that hangs
-  set(grid, 8, 1, kOccupied);                              // a low box
+  for (int z = 0; z < 10; ++z) set(grid, 2, z, kOccupied);  // a wall
+  set(grid, 4, 3, kOccupied);                               // a table top
+  for (int z = 3; z < 10; ++z) set(grid, 6, z, kOccupied);  // a cupboard that hangs
+  set(grid, 8, 1, kOccupied);                               // a low box
   FloorMap floor = free_floor();
   FloorMap detail = free_floor();
   block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, kOptions, 0.25);
@@ -108,12 +108,27 @@ TEST(Headroom, WallsAreOccupiedAtNineTenthsOfTheRobotsHeight) {
   EXPECT_EQ(row(detail), "............xx......");
 }
 
+/// A shelf is as full as a wall, but the robot's camera looks over it.
+TEST(Headroom, WallsGoOnAboveTheRobot) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.1, 1.2}, {2.0, 0.2, 2.4}, {10, 1, 48}));
+  std::ranges::fill(grid.log_odds, kFree);
+  for (int z = 0; z < 35; ++z) set(grid, 2, z, kOccupied);  // five of seven slices above 1.5 m
+  for (int z = 0; z < 34; ++z) set(grid, 6, z, kOccupied);  // four
+  HeadroomOptions options = kOptions;
+  options.high_m = 1.47;
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, options, 0.25);
+  EXPECT_EQ(row(floor), "....xx......xx......");
+  EXPECT_EQ(row(detail), "............xx......");
+}
+
 /// A face near the boundary of two columns is now and then in the farther one.
 TEST(Headroom, WhatIsBesideAWallDoesNotBlockTheFinerMap) {
   OccupancyGrid grid = free_row();
-  for (int z = 0; z < 8; ++z) set(grid, 2, z, kOccupied);       // a wall
+  for (int z = 0; z < 10; ++z) set(grid, 2, z, kOccupied);      // a wall
   for (const int z : {3, 6}) set(grid, 3, z, kOccupied);        // its face, here and there
-  for (int z = 0; z < 8; ++z) set(grid, 7, z, kOccupied);       // another
+  for (int z = 0; z < 10; ++z) set(grid, 7, z, kOccupied);      // another
   for (const int x : {5, 6, 8, 9}) set(grid, x, 3, kOccupied);  // a board, on either side
   FloorMap floor = free_floor();
   FloorMap detail = free_floor();
@@ -124,7 +139,7 @@ TEST(Headroom, WhatIsBesideAWallDoesNotBlockTheFinerMap) {
 
 TEST(Headroom, WhatIsBesideAWallDoesNotBlockTheFinerMapAtTheRimOfTheGridEither) {
   OccupancyGrid grid = free_row();
-  for (int z = 0; z < 8; ++z) {
+  for (int z = 0; z < 10; ++z) {
     for (const int x : {1, 8}) set(grid, x, z, kOccupied);
   }
   for (const int x : {0, 9}) set(grid, x, 3, kOccupied);
