@@ -24,6 +24,7 @@ constexpr const char* kStop = "stop";
 constexpr const char* kEnough = "enough";
 constexpr double kSure = 0.9;
 constexpr double kAskedFor = 0.95;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Decisions whose intervals held what came.
 struct Covered {
@@ -55,7 +56,7 @@ struct SaidDone {
   std::size_t episodes = 0;
   std::size_t said = 0;
   std::size_t wrong = 0;
-  std::vector<double> delays;  ///< scans, of those that were right
+  std::vector<double> delays;  ///< scans, where it was true in the end
 };
 
 SaidDone said_done(const StudyTables& study, const std::string& panel) {
@@ -67,13 +68,11 @@ SaidDone said_done(const StudyTables& study, const std::string& panel) {
   SaidDone done;
   done.episodes = sure.size();
   for (std::size_t i = 0; i < sure.size(); ++i) {
-    if (sure[i] < kSure) continue;
-    ++done.said;
-    if (seen[i] < kAskedFor) {
-      ++done.wrong;
-    } else {
-      done.delays.push_back(scans[i] - needed[i]);
-    }
+    const bool said = sure[i] >= kSure;
+    const bool right = seen[i] >= kAskedFor;
+    done.said += said ? 1 : 0;
+    done.wrong += said && !right ? 1 : 0;
+    if (right) done.delays.push_back(said ? scans[i] - needed[i] : kNever);
   }
   if (done.said == 0)
     throw NotRun(fmt::format("it says in no episode of {} that it is done", panel));
@@ -105,7 +104,10 @@ Finding says_so_soon(const StudyTables& study) {
                 if (delays.empty()) throw NotRun("it is right in no episode");
                 std::ranges::sort(delays);
                 const double median = delays[delays.size() / 2];
-                return {fmt::format("{:g} scans, {:g} at most", median, delays.back()),
+                const auto never = std::ranges::count(delays, kNever);
+                return {fmt::format("{:g} scans, {}", median,
+                                    never > 0 ? fmt::format("never in {}", never)
+                                              : fmt::format("{:g} at most", delays.back())),
                         median <= 2.0, "the last of what is left is forecast too high"};
               });
 }

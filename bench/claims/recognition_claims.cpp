@@ -26,16 +26,22 @@ const Json& method_of(const Json& study, std::string_view name) {
   throw NotRun(fmt::format("`{}`", name));
 }
 
+/// Null: of nothing.
+double number(const Json& figure) {
+  if (!figure.is_number()) throw NotRun("a figure that is of something");
+  return figure.get<double>();
+}
+
 double accuracy(const Json& study, std::string_view method) {
-  return method_of(study, method).at("accuracy_percent").at("mean").get<double>();
+  return number(method_of(study, method).at("accuracy_percent").at("mean"));
 }
 
 double views(const Json& study, std::string_view method) {
-  return method_of(study, method).at("observations").at("mean").get<double>();
+  return number(method_of(study, method).at("observations").at("mean"));
 }
 
 double feature_time_s(const Json& study, std::string_view method) {
-  return method_of(study, method).at("feature_time_s").get<double>();
+  return number(method_of(study, method).at("feature_time_s"));
 }
 
 struct AccuracyDifference {
@@ -47,8 +53,8 @@ AccuracyDifference accuracy_over(const Json& study, std::string_view method,
   for (const Json& d : method_of(study, method).at("differences")) {
     if (d.at("reference").get<std::string>() != reference) continue;
     const Json& points = d.at("accuracy_percent");
-    return {points.at("mean").get<double>(), points.at("interval").at(0).get<double>(),
-            points.at("interval").at(1).get<double>()};
+    return {number(points.at("mean")), number(points.at("interval").at(0)),
+            number(points.at("interval").at(1))};
   }
   throw NotRun(fmt::format("`{}` compared to `{}`", method, reference));
 }
@@ -110,7 +116,7 @@ Finding feature_choice(const Json& study, const char* chosen, const char* all, c
 
 Finding pose(const Json& study) {
   return held("goal; table 4.4: 1.48", "pose within 1 bin on average", [&]() -> Measured {
-    const double bins = method_of(study, kInformed).at("bin_error").at("mean").get<double>();
+    const double bins = number(method_of(study, kInformed).at("bin_error").at("mean"));
     return {fmt::format("{:.2f}", bins), bins <= 1.0};
   });
 }
@@ -120,7 +126,7 @@ double change_percent(const Json& study, std::string_view scenario, const char* 
   if (study.contains("changes")) {
     for (const Json& change : study.at("changes")) {
       if (change.at("scenario") == scenario && change.at("method") == "mutual_information") {
-        return change.at(figure).get<double>();
+        return number(change.at(figure));
       }
     }
   }
@@ -156,17 +162,17 @@ double calibration_error(const Json& study, std::string_view method) {
   if (!of.contains("reliability") || of.at("reliability").is_null()) {
     throw NotRun("the study of unknown objects");
   }
-  return of.at("reliability").at("expected_calibration_error").get<double>();
+  return number(of.at("reliability").at("expected_calibration_error"));
 }
 
 }  // namespace
 
 std::vector<Finding> unknown_findings(const Json& study, const std::string& which) {
   const auto figure = [&](std::string_view method, const char* key) {
-    return unknown_of(study, method).at(key).get<double>();
+    return number(unknown_of(study, method).at(key));
   };
   const auto end = [&](const char* key, std::size_t at) {
-    return unknown_of(study, kInformed).at(key).at(at).get<double>();
+    return number(unknown_of(study, kInformed).at(key).at(at));
   };
   const auto area = [&]() -> Measured {
     const double value = figure(kInformed, "area_under_curve");
@@ -244,7 +250,7 @@ std::vector<Finding> kernel_findings(const Json& kernel, const Json& simple) {
                             "near-duplicates, which differ in hue and in small stickers, and none "
                             "of the seven holds a colour as such; a linear SVM of the same: {:.1f} "
                             "against {:.1f} %",
-                            method_of(kernel, kSingle).at("category_percent").get<double>(),
+                            number(method_of(kernel, kSingle).at("category_percent")),
                             accuracy(kernel, kSvm), accuracy(simple, kSvm))};
       })};
 }

@@ -142,6 +142,7 @@ class Branching {
     };
     try {
       vantage::run(episode_, options);
+      throw_if_interrupted();  // which ends an episode, but is no end of it
     } catch (const Enough&) {
     } catch (...) {
       if (child_) ::_exit(1);

@@ -58,6 +58,8 @@ RunBound bound_of_run(const RecordedRun& run);
 /// Runs the same episode with the choice `oracle_tour`, keeping nothing, and notes how it did.
 /// @throws Interrupted; Error with the run's code if it does not complete
 void add_oracle_tour(const RecordedRun& run, RunBound& bound);
+/// Takes it over from a former bound of the same run, as run_bound_json() tells it, if that has it.
+void keep_oracle_tour(const nlohmann::ordered_json& former, RunBound& bound);
 
 nlohmann::ordered_json run_bound_json(const RunBound& bound);
 std::string run_bound_text(const RunBound& bound);

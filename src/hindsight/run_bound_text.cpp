@@ -53,7 +53,24 @@ std::string ratio_row(std::string_view what, const std::optional<ShareReached>& 
                      quotient_text(of->way_m, to->way_m), quotient_text(of->time_s, to->time_s));
 }
 
+std::optional<ShareReached> progress_of(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return ShareReached{json.at("scans"), json.at("way_m"), json.at("time_s")};
+}
+
 }  // namespace
+
+void keep_oracle_tour(const Json& former, RunBound& bound) {
+  if (!former.is_object() || !former.value("has_oracle_tour", false)) return;
+  bound.has_oracle_tour = true;
+  for (ShareBound& share : bound.shares) {
+    for (const Json& told : former.at("shares")) {
+      if (told.at("percent") == share.percent) {
+        share.oracle_tour = progress_of(told.at("oracle_tour"));
+      }
+    }
+  }
+}
 
 Json run_bound_json(const RunBound& bound) {
   Json json = {{"poses", bound.poses},

@@ -18,10 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What depends on the machine and its load.
-constexpr auto kWallTimes = std::to_array<std::string_view>(
-    {"wall_time_s", "real_time_factor", "plan_time_s", "map_time_s", "feature_time_s",
-     "selection_time_s", "view_time_s", "late_plans", "replan_time_s", "replan_time_p95_s"});
 /// Texts that must agree under any tolerance.
 constexpr auto kBinding = std::to_array<std::string_view>({"task", "status", "title"});
 
@@ -30,7 +26,7 @@ using Leaf = std::pair<std::string, Json>;
 void flatten(const Json& json, const std::string& key, std::vector<Leaf>& leaves) {
   if (json.is_object()) {
     for (const auto& [name, child] : json.items()) {
-      if (std::ranges::find(kWallTimes, name) != kWallTimes.end()) continue;
+      if (is_wall_time(name)) continue;
       flatten(child, key.empty() ? name : fmt::format("{}.{}", key, name), leaves);
     }
   } else if (json.is_array()) {

@@ -59,6 +59,35 @@ PlannedEpisode planned(const Study& study, ConfigNode root, EpisodeLevels levels
   return episode;
 }
 
+/// What a validation has tried: each start once, and each level, which may hold more.
+struct Tried {
+  std::set<std::string> starts;
+  std::set<std::pair<std::size_t, std::string>> levels;  ///< of which factor
+};
+
+void try_starts(const fs::path& file, StudyReading& reading, Tried& tried) {
+  const Study& study = reading.study;
+  for (const PlannedEpisode& episode : plan_episodes(study, reading.problems)) {
+    bool is_new = tried.starts.insert(start_of(episode.resolved.setup)).second;
+    for (std::size_t f = 0; f < episode.levels.size(); ++f) {
+      const std::string& level = study.factors[f].levels[episode.levels[f]].name;
+      is_new = tried.levels.insert({f, level}).second || is_new;
+    }
+    if (!is_new) continue;
+    reading.problems.attempt([&] { require_start(file, episode.resolved); });
+  }
+}
+
+/// One without a name where the study has none, or wrong ones.
+std::vector<std::string> names_of_splits(const fs::path& file) {
+  const ConfigNode root = read_yaml(file);
+  const ConfigNode* splits = root.find("splits");
+  if (splits == nullptr || splits->entries.empty()) return {{}};
+  std::vector<std::string> names;
+  for (const auto& [name, levels] : splits->entries) names.push_back(name);
+  return names;
+}
+
 }  // namespace
 
 bool is_study(const fs::path& file) {
@@ -74,18 +103,14 @@ bool is_study(const fs::path& file) {
 
 Validation validate_study(const fs::path& file) {
   return validation_of([&] {
-    StudyReading reading = read_study_file(file, {});
-    std::set<std::string> starts;
-    std::set<std::pair<std::size_t, std::size_t>> levels;  // of which factor
-    for (const PlannedEpisode& episode : plan_episodes(reading.study, reading.problems)) {
-      bool is_new = starts.insert(start_of(episode.resolved.setup)).second;
-      for (std::size_t f = 0; f < episode.levels.size(); ++f) {
-        is_new = levels.insert({f, episode.levels[f]}).second || is_new;
-      }
-      if (!is_new) continue;
-      reading.problems.attempt([&] { require_start(file, episode.resolved); });
+    Problems problems;
+    Tried tried;
+    for (const std::string& split : names_of_splits(file)) {
+      StudyReading reading = read_study_file(file, {}, split);
+      try_starts(file, reading, tried);
+      problems.attempt([&] { reading.problems.throw_if_any(); });
     }
-    return Validation{reading.problems.texts(), {}, reading.problems.code()};
+    return Validation{problems.texts(), {}, problems.code()};
   });
 }
 

@@ -31,16 +31,20 @@ TEST_F(HindsightCommands, BoundIsKeptAndOnThePage) {
               HasSubstr("\"run_over_least\""));
 }
 
-TEST_F(HindsightCommands, AnInterruptedTourIsNoComparison) {
+TEST_F(HindsightCommands, AnInterruptedRepetitionIsNoResult) {
   replace("config.yaml", "s/scan_duration_s: 2$/scan_duration_s: 3600/");  // hours of scanning
   const fs::path before = fs::temp_directory_path();
   fs::create_directory(folder_ / "scratch");
   ::setenv("TMPDIR", (folder_ / "scratch").c_str(), 1);
-  const Result result = interrupted("bound run --oracle-tour -q",
-                                    "ls scratch/*/oracle_tour/steps.part.csv >listed 2>&1", "INT");
+  const Result tour = interrupted("bound run --oracle-tour -q",
+                                  "ls scratch/*/oracle_tour/steps.part.csv >listed 2>&1", "INT");
+  const Result branches = interrupted("branch run --scan 1 --all -q",
+                                      "ls scratch/*/0/steps.part.csv >listed 2>&1", "INT");
   ::setenv("TMPDIR", before.c_str(), 1);
-  EXPECT_EQ(result.exit_code, 130) << result.output;
+  EXPECT_EQ(tour.exit_code, 130) << tour.output;
   EXPECT_FALSE(fs::exists(folder_ / "run/bound.json"));
+  EXPECT_EQ(branches.exit_code, 130) << branches.output;
+  EXPECT_FALSE(fs::exists(folder_ / "run/branches.json"));
 }
 
 TEST_F(HindsightCommands, BranchAsChosenHasTheRecordedHash) {

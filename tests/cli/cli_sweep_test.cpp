@@ -337,7 +337,7 @@ TEST_F(SlurmStandIns, WhatCannotBeSubmittedLeavesNothing) {
 
 /// Hours of scanning: both episodes are at it, or the first one alone has gone on and on.
 TEST_F(CommandLine, AWorkerRunsAsManyEpisodesAtATimeAsItIsToldTo) {
-  const auto begun_by = [&](const std::string& folder, const std::string& jobs) {
+  const auto begun_by = [&](const std::string& folder, const std::string& option) {
     fs::create_directories(folder_ / folder);
     file(folder + "/study.yaml", R"(episode: assets/episodes/tabletop.yaml
 set: {scans: 1, laser.scan_duration_s: 3600, map.cells: [9, 9, 5]}
@@ -345,15 +345,17 @@ factors: {start: {a: {robot.start_view: 0}, b: {robot.start_view: 5}}}
 )");
     const std::string states = "$(find " + folder + "/attempts -name states.part.bin";
     const Result ended = interrupted(
-        fmt::format("sweep work {} --keep-states --jobs {}", folder, jobs),
+        fmt::format("sweep work {} --keep-states {}", folder, option),
         fmt::format("[ {0} | wc -l) -ge 2 ] || [ -n \"{0} -size +20M)\" ]", states), "TERM");
     EXPECT_EQ(ended.exit_code, 143) << ended.output;
     EXPECT_THAT(ended.output, HasSubstr("2 episodes run, 0 completed\n")) << folder;
   };
-  begun_by("own", "2");
+  begun_by("own", "--jobs 2");
   ::setenv("SLURM_JOB_ID", "60", 1);
+  ::setenv("SLURM_CPUS_PER_TASK", "1", 1);
+  begun_by("said", "--jobs 2");
   ::setenv("SLURM_CPUS_PER_TASK", "2", 1);
-  begun_by("slurm", "1");
+  begun_by("slurm", "");
   ::unsetenv("SLURM_CPUS_PER_TASK");
   ::unsetenv("SLURM_JOB_ID");
 }

@@ -76,6 +76,19 @@ TEST(RunBoundText, IsJsonToo) {
   EXPECT_TRUE(json["shares"][1]["run_over_least"].is_null());
 }
 
+TEST(RunBoundText, IsReadBackForTheTourOfTheOracle) {
+  RunBound former = told_bound();
+  former.has_oracle_tour = true;
+  RunBound bound = told_bound();
+  for (ShareBound& share : bound.shares) share.oracle_tour.reset();
+  keep_oracle_tour(run_bound_json(told_bound()), bound);
+  EXPECT_FALSE(bound.has_oracle_tour) << "there was none";
+  keep_oracle_tour(nullptr, bound);
+  EXPECT_FALSE(bound.has_oracle_tour) << "no former bound";
+  keep_oracle_tour(run_bound_json(former), bound);
+  EXPECT_EQ(run_bound_json(bound), run_bound_json(former));
+}
+
 TEST(ProgressTo, IsTheFirstScanThatLeavesNoMoreThanTheShare) {
   RecordedRun run;
   run.observable_cells = 1000;

@@ -204,6 +204,13 @@ TEST_F(StudyFile, ValidationTriesEveryStartAndEverySplit) {
               testing::Contains(HasSubstr("nowhere")));
   EXPECT_THAT(problems_of("splits: {one: {start: [a, b]}, other: {start: [d]}}\n"),
               testing::Contains(HasSubstr("'d'")));
+  const std::string unsound = "    c: {robot.start_view: five}\n";
+  EXPECT_THAT(problems_of(unsound + "splits: {one: {start: [a]}, other: {start: [b, c]}}\n"),
+              testing::ElementsAre(HasSubstr("five")))
+      << "a level of the second split";
+  EXPECT_THAT(problems_of(unsound + "splits: {one: {start: [a]}, other: {start: [b]}}\n"),
+              testing::IsEmpty())
+      << "one of no split is never run";
 }
 
 TEST_F(StudyFile, UnknownKeysAreNamedWithTheirPlace) {

@@ -134,6 +134,9 @@ TEST_F(Submit, ErrorsOfUse) {
   expect(submit("--time ''"), 2, "--time: is empty");
   expect(submit("--sbatch-arg --array=3"), 2, "--sbatch-arg --array=3: submit sets --array itself");
   expect(submit("--sbatch-arg -a3"), 2, "--sbatch-arg -a3: submit sets -a3 itself");
+  for (const std::string other : {"--clusters=far", "-Mfar"}) {
+    expect(submit("--sbatch-arg " + other), 2, other + ": jobs of another cluster");
+  }
   expect(submit("--sbatch-arg mem"), 2, "--sbatch-arg mem: expected an option of sbatch");
   expect(submit("--set nonsense=1"), 2, "nonsense");
   expect(vantage("submit " VANTAGE_SOURCE_DIR "/assets/episodes/tabletop.yaml --out dir"), 2,

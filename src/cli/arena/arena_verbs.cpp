@@ -39,6 +39,8 @@ void add_bounds(const fs::path& arena, const std::vector<PlannedEpisode>& plan) 
     try {
       const RunBound bound = bound_of_run(read_recorded_run(folder));
       write_file(folder / "bound.json", json_text(run_bound_json(bound)));
+    } catch (const Interrupted&) {
+      break;
     } catch (const InputError& error) {
       log_warning(fmt::format("{}: no bound: {}", plan[i].name, error.what()));
     }

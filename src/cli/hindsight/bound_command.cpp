@@ -9,6 +9,7 @@
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/hindsight/run_bound.hpp"
+#include "vantage/report/json_file.hpp"
 #include "vantage/report/report.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/json.hpp"
@@ -23,13 +24,27 @@ struct BoundArguments {
   bool json = false;
 };
 
+/// To run it takes a whole episode.
+void keep_former_tour(const fs::path& file, RunBound& bound) {
+  if (!fs::exists(file)) return;
+  try {
+    keep_oracle_tour(json_object_or_null<nlohmann::ordered_json>(read_file(file)), bound);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
 ExitCode bound_command(const BoundArguments& arguments) {
   require_run_folder(arguments.directory);
   catch_interrupts();
   const RecordedRun run = read_recorded_run(arguments.directory);
   RunBound bound = bound_of_run(run);
   throw_if_interrupted();
-  if (arguments.oracle_tour) add_oracle_tour(run, bound);
+  if (arguments.oracle_tour) {
+    add_oracle_tour(run, bound);
+  } else {
+    keep_former_tour(run.directory / "bound.json", bound);
+  }
   throw_if_interrupted();
   const std::string text = json_text(run_bound_json(bound));
   write_file(run.directory / "bound.json", text);

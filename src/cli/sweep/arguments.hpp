@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,7 +19,7 @@ struct SweepArguments {
   std::vector<std::string> overrides;
   std::string split;  ///< empty: as the study says
   std::string shard = "1/1";
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::optional<int> jobs = {};  ///< none: see jobs_here()
   bool overwrite = false;
   bool keep_states = false;
   bool json = false;
@@ -27,6 +28,12 @@ struct SweepArguments {
   std::string time;
   std::vector<std::string> sbatch_arguments;
 };
+
+/// As many as said, else as this machine has cores.
+inline int jobs_here(const SweepArguments& arguments) {
+  return arguments.jobs.value_or(
+      static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+}
 
 struct OpenedStudy {
   Study study;

@@ -68,9 +68,9 @@ void print_submission(const SweepArguments& arguments, const fs::path& directory
       directory.string(), episodes, submission.tasks, submission.array, submission.collect);
 }
 
-/// Of a task of Slurm; else what was given.
+/// As many as said, else as a task of Slurm was given cores.
 int jobs_of(const SweepArguments& arguments) {
-  if (std::getenv("SLURM_JOB_ID") == nullptr) return arguments.jobs;
+  if (arguments.jobs || std::getenv("SLURM_JOB_ID") == nullptr) return jobs_here(arguments);
   int jobs = 1;
   const char* text = std::getenv("SLURM_CPUS_PER_TASK");  // set if it was asked for
   if (text != nullptr) std::from_chars(text, text + std::strlen(text), jobs);

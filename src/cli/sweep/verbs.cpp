@@ -95,7 +95,7 @@ ExitCode run_study(const SweepArguments& arguments) {
   const OpenedStudy opened = open_study(arguments);
   const auto plan = shard_of(plan_study(opened.study), parse_shard(arguments.shard));
   const StudySweepOptions options{.directory = opened.directory,
-                                  .jobs = arguments.jobs,
+                                  .jobs = jobs_here(arguments),
                                   .overwrite = arguments.overwrite,
                                   .keep_states = arguments.keep_states};
   prepare_study_folder(opened.study, options);

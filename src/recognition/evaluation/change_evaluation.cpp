@@ -57,7 +57,6 @@ double ChangeTrials::detectable_accuracy() const {
   if (scenario == Change::none) return accuracy();
   std::vector<ChangeTrial> detectable;
   std::ranges::copy_if(trials, std::back_inserter(detectable), &ChangeTrial::detectable);
-  if (detectable.empty()) return 0.0;
   return share_of(detectable,
                   [](const ChangeTrial& trial) { return trial.decision != Change::none; });
 }

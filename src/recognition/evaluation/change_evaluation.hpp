@@ -27,7 +27,7 @@ struct ChangeTrials {
 
   /// Share that was held for changed if it was, and for unchanged if it was not.
   [[nodiscard]] double accuracy() const;
-  /// The same of the changes that are detectable; of all where there is no change.
+  /// The same of the changes that are detectable, NaN if none is; of all where there is no change.
   [[nodiscard]] double detectable_accuracy() const;
   [[nodiscard]] double detectable_share() const;
   /// Share whose decision is the scenario.

@@ -176,8 +176,8 @@ std::optional<HeldClaim> take_claim(const fs::path& folder, int number, const Wo
   const int why = errno;
   // The answer of an NFS server may be lost, and the link be there all the same.
   struct stat status {};
-  bool taken = ::stat(own.c_str(), &status) == 0 && status.st_nlink == 2;
-  if (!taken && result != 0 && why != EEXIST) taken = create_exclusively(file, text);
+  bool taken = result == 0 || (::stat(own.c_str(), &status) == 0 && status.st_nlink == 2);
+  if (!taken && why != EEXIST) taken = create_exclusively(file, text);
   ::unlink(own.c_str());
   if (!taken) return std::nullopt;
   return HeldClaim(folder, number, worker);

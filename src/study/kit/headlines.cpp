@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vantage/runtime/measure.hpp"
@@ -12,6 +13,10 @@
 namespace vantage {
 namespace {
 using Json = nlohmann::ordered_json;
+
+constexpr auto kWallTimes = std::to_array<std::string_view>(
+    {"wall_time_s", "real_time_factor", "plan_time_s", "map_time_s", "feature_time_s",
+     "selection_time_s", "view_time_s", "late_plans", "replan_time_s", "replan_time_p95_s"});
 
 /// Of the task that metrics.json is of; of none if there is no such task.
 Measures measures_of(const Json& metrics) {
@@ -68,6 +73,10 @@ std::string difference_of(const Headline& row) {
 
 }  // namespace
 
+bool is_wall_time(std::string_view key) {
+  return std::ranges::find(kWallTimes, key) != kWallTimes.end();
+}
+
 double relative_difference(double a, double b) {
   return a == b ? 0.0 : std::abs(b - a) / std::max(std::abs(a), std::abs(b));
 }
@@ -94,7 +103,7 @@ std::vector<Headline> study_headlines(const Json& first, const Json& second, dou
   const Json tables = first.value("tables", Json::object());
   for (const auto& [name, panels] : tables.items()) {
     const Json* ours = whole_table(first, name);
-    if (ours == nullptr) continue;
+    if (ours == nullptr || is_wall_time(name)) continue;
     for (const auto& [level, row] : ours->items()) {
       rows.push_back(headline(fmt::format("{}, {}", name, level), mean(&row),
                               mean(entry(whole_table(second, name), level)), tolerance));

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vantage {
@@ -19,7 +20,7 @@ struct Headline {
 /// Of two metrics.json: what the task of the first calls its headlines.
 std::vector<Headline> run_headlines(const nlohmann::ordered_json& first,
                                     const nlohmann::ordered_json& second, double tolerance);
-/// Of two summary.json: the mean of every level in every table, over all panels.
+/// Of two summary.json: the mean of every level in every table but of wall times, over all panels.
 std::vector<Headline> study_headlines(const nlohmann::ordered_json& first,
                                       const nlohmann::ordered_json& second, double tolerance);
 
@@ -27,6 +28,10 @@ std::vector<Headline> study_headlines(const nlohmann::ordered_json& first,
 std::string headlines_text(const std::vector<Headline>& headlines, const std::string& first,
                            const std::string& second);
 nlohmann::ordered_json headlines_json(const std::vector<Headline>& headlines);
+
+/// Whether that key of a metrics.json, or table of a summary.json, depends on the machine and its
+/// load.
+bool is_wall_time(std::string_view key);
 
 /// |a - b| as a share of the larger one.
 double relative_difference(double a, double b);

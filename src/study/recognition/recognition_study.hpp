@@ -99,6 +99,7 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
                                        const RecognitionStudyOptions& options, const LongWork& how,
                                        const DatasetIndex& training = {});
 
+/// NaN of nothing, which JSON has as null.
 struct Estimate {
   double mean = 0.0;
   Interval interval;  ///< 95 %, resampling whole objects

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "vantage/study/recognition/recognition_study.hpp"
@@ -8,10 +9,11 @@ namespace {
 
 constexpr auto kRandom = "random";
 constexpr auto kRandomAll = "random, all features";
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Estimate estimate_of(std::span<const double> values, const Clusters& clusters, std::uint64_t seed,
                      const std::string& what) {
-  if (values.empty()) return {};
+  if (values.empty()) return {kNan, {kNan, kNan}};
   Rng rng = Rng::stream(seed, what);
   return {
       .mean = mean(values),

@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string with_interval(const Estimate& e) {
+  if (std::isnan(e.mean)) return "-";
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", e.mean, e.interval.low, e.interval.high);
 }
 
@@ -99,10 +100,12 @@ std::string change_table(const RecognitionStudy& study) {
   for (const ChangeTrials& change : study.changes) {
     const Json j = change_json(change);
     const auto value = [&](const char* key) { return j[key].get<double>(); };
+    const std::string detectable =
+        std::isnan(value("detectable_percent")) ? "-" : number(value("detectable_percent"), 2);
     const bool none = change.scenario == Change::none;
     text += fmt::format("| {} | {} | {:.2f} | {} | {} | {:.2f} | {:.2f} | {:.4f} |\n",
                         to_string(change.scenario), change.method, value("accuracy_percent"),
-                        none ? "-" : fmt::format("{:.2f}", value("detectable_percent")),
+                        none ? "-" : detectable,
                         none ? "-" : fmt::format("{:.1f}", value("detectable_share_percent")),
                         value("kind_percent"), value("observations"), value("time_s"));
   }

@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr auto kOurs = std::to_array<std::string_view>(
     {"--array", "-a", "--dependency", "-d", "--wrap", "--parsable", "--no-requeue", "--test-only",
      "--wait", "-W", "--output", "-o", "--open-mode"});
+constexpr auto kClusters = std::to_array<std::string_view>({"--clusters", "--cluster", "-M"});
 
 /// For the shell.
 std::string quoted(const std::string& text) {
@@ -103,10 +104,14 @@ void check_sbatch_arguments(const std::vector<std::string>& arguments) {
     }
     const std::string_view name = std::string_view(argument).substr(0, argument.find('='));
     const bool short_form = argument.size() > 2 && argument[1] != '-';
-    const bool is_ours = std::ranges::any_of(kOurs, [&](std::string_view ours) {
-      return name == ours || (short_form && ours.size() == 2 && name.starts_with(ours));
-    });
-    if (is_ours) {
+    const auto is_one = [&](std::string_view other) {
+      return name == other || (short_form && other.size() == 2 && name.starts_with(other));
+    };
+    if (std::ranges::any_of(kClusters, is_one)) {
+      throw ConfigError(
+          fmt::format("--sbatch-arg {}: jobs of another cluster cannot be followed", argument));
+    }
+    if (std::ranges::any_of(kOurs, is_one)) {
       throw ConfigError(fmt::format(
           "--sbatch-arg {}: submit sets {} itself{}", argument, name,
           name == "--array" || name == "-a" ? "; --array N is the number of tasks" : ""));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -43,7 +44,7 @@ TEST(ChangeScores, OfNothingDetectableAreNone) {
   const ChangeTrials hidden =
       trials_of(Change::object, {{Change::object, false}, {Change::none, false}});
   EXPECT_DOUBLE_EQ(hidden.accuracy(), 0.5);
-  EXPECT_EQ(hidden.detectable_accuracy(), 0.0);
+  EXPECT_TRUE(std::isnan(hidden.detectable_accuracy()));
   EXPECT_EQ(hidden.detectable_share(), 0.0);
 }
 

@@ -47,6 +47,12 @@ TEST(StudyHeadlines, AreTheMeansOverAllPanels) {
   EXPECT_TRUE(study_headlines(first, second, 0.19)[1].beyond);
 }
 
+TEST(StudyHeadlines, LeaveOutWallTimes) {
+  Json study = summary_of(4, {{"a", {{"mean", 2.0}}}});
+  study["tables"]["replan_time_s"]["all"]["a"]["mean"] = 0.1;
+  EXPECT_EQ(study_headlines(study, study, 0.0).size(), 2U);
+}
+
 TEST(StudyHeadlines, WhatIsNoNumberIsNotThere) {
   const Json odd = {{"completed", "all"},
                     {"tables", {{"area", {{"all", {{"a", {{"mean", "two"}}}}}}}}}};

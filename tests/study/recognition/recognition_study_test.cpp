@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
@@ -97,6 +99,8 @@ TEST(RecognitionStudy, ObjectsThatTheModelDoesNotKnowCountForTheirCategory) {
   EXPECT_THAT(recognition_tables(study), HasSubstr("1 of 4 objects are not in the model"));
   for (Trial& trial : study.methods[0].trials) trial.object = -1;
   EXPECT_THAT(recognition_tables(study), HasSubstr("so that the accuracy is of none"));
+  EXPECT_TRUE(std::isnan(summaries(study)[0].accuracy_percent.mean)) << "no 0 %";
+  EXPECT_THAT(recognition_tables(study), HasSubstr(study.methods[0].method + " | - | "));
   study.methods.push_back(study.methods[0]);
   study.methods[1].method = "ours";
   EXPECT_EQ(summaries(study)[1].differences.at(0).p_value, 1.0) << "nothing speaks for one";
