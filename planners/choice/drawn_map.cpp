@@ -16,6 +16,7 @@ GridFrame coarser(const GridFrame& frame, int edge) {
 }
 
 struct Counts {
+  int cells = 0;
   int occupied = 0;
   int unobserved = 0;
 };
@@ -23,6 +24,7 @@ struct Counts {
 Counts count_states(const OccupancyGrid& grid, const Eigen::Array3i& first, int edge) {
   Counts counts;
   const Eigen::Array3i end = (first + edge).min(grid.frame.cells);
+  counts.cells = (end - first).prod();
   for (int z = first.z(); z < end.z(); ++z) {
     for (int y = first.y(); y < end.y(); ++y) {
       for (int x = first.x(); x < end.x(); ++x) {
@@ -40,13 +42,13 @@ Counts count_states(const OccupancyGrid& grid, const Eigen::Array3i& first, int 
 DrawableMap::DrawableMap(const GainContext& map, int edge)
     : grid_(coarser(map.grid.frame, edge)),
       p_opaque_(grid_.size(), 0.0F),
-      cells_in_each_(std::pow(edge, 3)) {
+      cells_in_each_(map.grid.frame.cells.min(edge).prod()) {
   expects(map.transmission != nullptr, "what is known of transmission");
   constexpr float kKnown = 4.0F;
   for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
     const Eigen::Array3i first = grid_.frame.cell(cell) * edge;
     const Counts counts = count_states(map.grid, first, edge);
-    const bool unobserved = counts.occupied == 0 && 2.0 * counts.unobserved >= cells_in_each_;
+    const bool unobserved = counts.occupied == 0 && 2 * counts.unobserved >= counts.cells;
     grid_.log_odds[cell] = counts.occupied > 0 ? kKnown : (unobserved ? 0.0F : -kKnown);
     if (!unobserved) continue;
     const double passes = std::pow(map.transmission->at_cell(first), edge);

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
+
 namespace vantage {
 namespace {
 
@@ -80,6 +82,7 @@ std::vector<Option> options_among(std::span<const Candidate> candidates) {
 std::vector<Extension> extensions(std::span<const Plan> plans, std::span<const Option> options) {
   std::vector<Extension> all;
   for (std::size_t p = 0; p < plans.size(); ++p) {
+    poll_stop();
     const Plan& plan = plans[p];
     for (std::size_t o = 0; o < options.size(); ++o) {
       if (std::ranges::find(plan.options, o) != plan.options.end()) continue;
@@ -115,6 +118,7 @@ std::vector<Plan> best_of(std::span<const Plan> plans, std::vector<Extension> al
   std::set<Sequence> taken;
   for (const Extension& e : all) {
     if (best.size() == width) break;
+    poll_stop();
     Sequence views = plans[e.plan].options;
     views.push_back(e.option);
     std::ranges::sort(views);

@@ -172,7 +172,7 @@ PlanningProblem make_view_problem(const ViewPlanningInput& input,
     const OccupancyGrid& grid = (*belief)->grid();
     const CellBlocks blocks = blocks_of(grid.frame, options.block_m);
     Attenuation drawn = (*belief)->draw(rng);
-    drawn.utility *= unit;
+    if (unit > 0.0) drawn.utility *= unit;  // else cells are what is shown
     ShownBlocks shown = swept_blocks(drawn, grid, views, field, blocks, threads);
     if (!taken.empty()) {
       leave_to_images(partial->images, taken, grid.frame, blocks, views, shown.cells, shown.shows);

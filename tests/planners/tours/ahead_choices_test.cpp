@@ -54,6 +54,14 @@ TEST(InformationRate, TakesTheMostASecond) {
   EXPECT_EQ(order_of(InformationRate{}, problem), test::Order{2});
 }
 
+TEST(InformationRate, OfAViewThatCostsNothingCounts) {
+  PlanningProblem problem = on_a_line({0.0, 1.0}, {0.0F, 5.0F});
+  problem.scan_s = 0.0;
+  EXPECT_EQ(order_of(InformationRate{}, problem), test::Order{1}) << "nothing is shown for nothing";
+  problem.cells[0] = 1.0F;
+  EXPECT_EQ(order_of(InformationRate{}, problem), test::Order{0});
+}
+
 TEST(FrontierTour, TakesTheShortestWayWhateverIsSeen) {
   const PlanningProblem problem = on_a_line({9.0, -2.0, 4.0}, {1000.0F, 1.0F, 5.0F});
   EXPECT_EQ(order_of(FrontierTour{}, problem), (test::Order{1, 2, 0}));
