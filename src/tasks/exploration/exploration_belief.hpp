@@ -22,7 +22,7 @@ struct KeptSweep {
 /// @param stride_px as far apart as the pixels that mark surfaces
 std::vector<HeadView> thinned(const std::vector<HeadView>& views, int stride_px);
 
-/// Its cloud holds a point or less a cell.
+/// Its cloud holds a point or less a cell of each scan.
 class ExplorationBelief : public MapBelief {
  public:
   ExplorationBelief(const EpisodeOptions& episode, const Exploration& task);

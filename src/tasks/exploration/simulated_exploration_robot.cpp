@@ -13,11 +13,10 @@
 namespace vantage {
 namespace {
 
-/// The head is at rest when neither joint moves more than this in a tick; the encoders say exactly
-/// where.
-constexpr double kAtRest_rad = 1e-4;
-constexpr int kFewestTicks = 4;
-constexpr int kMaxTicks = 160;
+/// The head is at rest when neither joint moves faster than this; the encoders say exactly where.
+constexpr double kAtRest_rad_s = 0.004;
+constexpr double kLeast_s = 0.1;
+constexpr double kMost_s = 4.0;
 
 Pose find_camera_pose(const World& world, const MobileBase& robot) {
   return to_se3(robot.T_world_base(world)).inverse() *
@@ -183,14 +182,17 @@ std::optional<HeadView> SimulatedExplorationRobot::take_image() {
 
 void SimulatedExplorationRobot::turn_head(const Gaze& gaze) {
   look(gaze);
-  for (int i = 0; i < kMaxTicks; ++i) {
+  const double period_s = base_.world().options().control_period_s;
+  const auto fewest = std::lround(kLeast_s / period_s);
+  const auto most = std::lround(kMost_s / period_s);
+  for (long i = 0; i < most; ++i) {
     const double pan_before = base_.robot().head_pan_rad(base_.world());
     const double tilt_before = base_.robot().head_tilt_rad(base_.world());
     base_.tick();
     const double moved_rad =
         std::max(std::abs(base_.robot().head_pan_rad(base_.world()) - pan_before),
                  std::abs(base_.robot().head_tilt_rad(base_.world()) - tilt_before));
-    if (i >= kFewestTicks && moved_rad < kAtRest_rad) return;
+    if (i >= fewest && moved_rad < kAtRest_rad_s * period_s) return;
   }
 }
 

@@ -209,7 +209,7 @@ Approach MappingParts::approach(const Candidate& view,
 void MappingParts::warn_not_reached(const Candidate& view, const Approach& approach) const {
   log_warning(fmt::format(
       "view {} is {}: scanning from as near as possible", view.id,
-      approach.turned_back ? "given up, since the budget must pay the way home" : "out of reach"));
+      approach.turned_back ? "given up, since the budget allows no longer way" : "out of reach"));
 }
 
 /// The belief stays as it is until its next update: until then there is time.

@@ -10,8 +10,8 @@ namespace vantage {
 namespace {
 
 /// Time for the lift and the tilt joint to come to rest before and between scans.
-constexpr int kSettleTicks = 20;
-constexpr int kMaxTicksToReach = 400;
+constexpr double kSettle_s = 0.5;
+constexpr double kMostToReach_s = 10.0;
 constexpr double kTiltReached_rad = 0.01;
 
 /// The lift that brings the laser to the height of the views.
@@ -51,9 +51,11 @@ SimulatedTabletopRobot::SimulatedTabletopRobot(const EpisodeSetup& setup, const 
 void SimulatedTabletopRobot::move_laser_to(double tilt_rad) {
   const MobileBase& robot = base_.robot();
   robot.command_laser_tilt(world(), tilt_rad);
-  for (int i = 0; i < kMaxTicksToReach; ++i) {
-    if (i >= kSettleTicks &&
-        std::abs(robot.laser_tilt_rad(world()) - tilt_rad) < kTiltReached_rad) {
+  const double period_s = world().options().control_period_s;
+  const auto settled = std::lround(kSettle_s / period_s);
+  const auto most = std::lround(kMostToReach_s / period_s);
+  for (long i = 0; i < most; ++i) {
+    if (i >= settled && std::abs(robot.laser_tilt_rad(world()) - tilt_rad) < kTiltReached_rad) {
       return;
     }
     base_.tick();

@@ -246,8 +246,20 @@ TEST(BudgetKeeper, KnowsTheTimesHome) {
   EXPECT_TRUE(OnOpenFloor({.return_to_start = true}).keeper.home_s(places).empty()) << "no limit";
 }
 
-TEST(BudgetKeeper, IsAskedOnTheWayWhereAWayHomeIsKept) {
-  EXPECT_TRUE(OnOpenFloor({.time_s = 100.0}).navigator.may_go_on == nullptr);
+TEST(BudgetKeeper, IsAskedOnTheWay) {
+  EXPECT_TRUE(OnOpenFloor({.return_to_start = true}).navigator.may_go_on == nullptr) << "no limit";
+  OnOpenFloor one_way({.time_s = 100.0});
+  ASSERT_TRUE(one_way.navigator.may_go_on != nullptr);
+  one_way.robot.T_world_base = {5.0, 0.0, 0.0};
+  one_way.robot.now_s = 94.1;
+  EXPECT_TRUE(one_way.navigator.may_go_on()) << "nothing is scanned yet";
+  ScanRecord scan;
+  scan.scan_time_s = 10.0;
+  one_way.keeper.observe(scan, nullptr);
+  one_way.robot.now_s = 83.9;
+  EXPECT_TRUE(one_way.navigator.may_go_on()) << "it need not come back";
+  one_way.robot.now_s = 84.1;
+  EXPECT_FALSE(one_way.navigator.may_go_on()) << "6 s are kept, and a scan";
   OnOpenFloor open({.time_s = 100.0, .return_to_start = true});
   ASSERT_TRUE(open.navigator.may_go_on != nullptr);
   open.robot.now_s = 93.9;

@@ -154,7 +154,7 @@ TEST(TabletopParts, KeepAViewThatTheBudgetKeptThemFrom) {
   testing::internal::CaptureStderr();
   at.parts.act(at.parts.views()[5]);
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              HasSubstr("view 5 is given up, since the budget must pay the way home"));
+              HasSubstr("view 5 is given up, since the budget allows no longer way"));
   EXPECT_TRUE(at.parts.current_.fallback);
   EXPECT_FALSE(at.parts.views()[5].exhausted);
 }

@@ -69,7 +69,8 @@ class Budget {
   /// @param way_home_m 0 if no way home is kept
   [[nodiscard]] bool affords_view(const SpendingRates& rates, const Spent& spent, double way_m,
                                   double way_home_m) const;
-  /// Whether a robot on its way may go on, and not turn back to keep the way home.
+  /// Whether a robot on its way may go on, and scan at its end, and not stop or turn back now.
+  /// @param way_home_m 0 if no way home is kept
   [[nodiscard]] bool affords_way_home(const SpendingRates& rates, const Spent& spent,
                                       double way_home_m) const;
 

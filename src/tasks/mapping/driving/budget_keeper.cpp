@@ -23,7 +23,7 @@ BudgetKeeper::BudgetKeeper(const BudgetOptions& options, double speed_m_s,
       navigator_(navigator),
       home_(robot.estimated_base()),
       rates_(speed_m_s) {
-  if (keeps_way_home()) navigator_.may_go_on = [this] { return may_go_on(); };
+  if (options.is_limited()) navigator_.may_go_on = [this] { return may_go_on(); };
 }
 
 PathField BudgetKeeper::ways_from_home() const { return navigator_.ways_from(home_); }
@@ -89,6 +89,10 @@ std::string BudgetKeeper::too_small(std::size_t scans) const {
 /// The way home as it was last known, and back what was driven since.
 bool BudgetKeeper::may_go_on() {
   if (coming_home_) return true;
+  // To the first scan, without which nothing can be said, it goes anyway.
+  if (!keeps_way_home()) {
+    return rates_.scan_s() == 0.0 || budget_.affords_way_home(rates_, spent(), 0.0);
+  }
   const auto& path_m = navigator_.path_m();
   double way_m = way_home_m_;
   for (std::size_t i = known_at_point_ + 1; i < path_m.size(); ++i) {
