@@ -70,14 +70,16 @@ TableSearch find_table_top(const CameraImages& images, const Pose& T_world_camer
   TableOptions table;
   table.region_centre_m = {p_world_table_m.x(), p_world_table_m.y()};
   table.region_size_m = {4.0 * options.radius_m, 4.0 * options.radius_m};
+  const double region_m2 = table.region_size_m[0] * table.region_size_m[1];
+  table.min_area_m2 = std::min(table.min_area_m2, 0.25 * region_m2);
   table.min_height_m = p_world_table_m.z() - options.table_tolerance_m;
   table.max_height_m = p_world_table_m.z() + options.table_tolerance_m;
   table.inlier_distance_m = kTableInlier_m;
   TableSearch found =
       find_table(transform(to_cloud(images, kStride_px), T_world_camera), table, rng);
-  if (!found.table) return found;
-  const Patch patch =
-      patch_of(images, place_of_column(images, T_world_camera, p_world_table_m, options));
+  const cv::Rect place = place_of_column(images, T_world_camera, p_world_table_m, options);
+  if (!found.table || place.empty()) return found;
+  const Patch patch = patch_of(images, place);
   move_to_surface(
       heights_over(patch, images, T_world_camera, *found.table, p_world_table_m, options),
       *found.table);

@@ -104,13 +104,14 @@ class Indexer {
     const std::string category = folder.parent_path().filename().string();
     for (const std::string& name : names) {
       if (!name.ends_with(kCrop)) continue;
-      auto parsed = parse_view_name(std::string_view(name).substr(0, name.size() - kCrop.size()));
-      if (parsed) {
+      const std::string stem = name.substr(0, name.size() - kCrop.size());
+      auto parsed = parse_view_name(stem);
+      if (parsed && to_string(*parsed) == stem) {
         if (parsed->object.starts_with(category + "_")) parsed->category = category;
         add_view(folder, *parsed, names);
       } else {
         reject(folder / name, fmt::format("is not called <category>_<instance>_<video>_<frame>{}, "
-                                          "with numbers up to {}",
+                                          "with numbers up to {} and no 0 before them",
                                           kCrop, std::numeric_limits<int>::max()));
       }
     }

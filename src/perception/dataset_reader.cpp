@@ -113,11 +113,12 @@ std::vector<double> pose_beside(const fs::path& colour) {
   return degrees;
 }
 
-/// From the pose beside, or of the video in the file's name.
+/// From the pose beside, or of the video in the name of a view of a dataset.
 std::optional<double> elevation_beside(const fs::path& colour) {
   const std::vector<double> pose = pose_beside(colour);
   if (pose.size() > 1) return pose[1] * std::numbers::pi / 180.0;
   const std::string name = colour.filename().string();
+  if (!name.ends_with("_crop.png")) return std::nullopt;
   const auto view = parse_view_name(name.substr(0, name.rfind('_')));
   return view ? video_elevation_rad(view->video) : std::nullopt;
 }

@@ -74,6 +74,18 @@ std::vector<const ObservationModel*> models_of(const Recogniser& recogniser) {
 
 }  // namespace
 
+void require_fits(const RecognitionOptions& options, const Recogniser& recogniser) {
+  std::vector<std::string_view> known;
+  for (const RecogniserFeature& feature : recogniser.features) {
+    known.emplace_back(feature.observation.feature);
+  }
+  const std::string& first = options.features.first;
+  if (!options.all_features && !first.empty() && std::ranges::find(known, first) == known.end()) {
+    throw ConfigError("features.first: " + unknown_strategy("feature", first, known));
+  }
+  kernel_of(options.transition, 0.0, recogniser.states.bins);
+}
+
 ExtractFeature extract_from(const Recogniser& recogniser, const ObjectView& view) {
   return [&recogniser, &view](std::size_t feature) {
     const double start_s = wall_s();

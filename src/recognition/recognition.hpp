@@ -39,6 +39,10 @@ struct RecognitionOptions {
   }
 };
 
+/// @throws ConfigError naming the option that asks for a feature that the recogniser has not, or
+/// gives the slips of another number of yaw bins.
+void require_fits(const RecognitionOptions& options, const Recogniser& recogniser);
+
 /// A feature as a view gives it, and the time that took.
 struct ExtractedFeature {
   FeatureResult result;

@@ -112,6 +112,9 @@ TEST_F(Index, NamesAViewWhoseNameCannotBeRead) {
   std::filesystem::remove(of_mug("mug_99999999999_2_1_crop.png"));
   write_file(of_mug("left_crop.png"), "of no number");
   expect_bad("left_crop.png", "<category>_<instance>_<video>_<frame>_crop.png");
+  std::filesystem::remove(of_mug("left_crop.png"));
+  write_file(of_mug("mug_1_2_010_crop.png"), "of frame 10, as it is not written");
+  expect_bad("mug_1_2_010_crop.png", "no 0 before them");
   EXPECT_EQ(index_dataset(root_.path(), OnBadView::skip).views.size(), 4U);
 }
 

@@ -192,6 +192,14 @@ TEST_F(PairBeside, ElevationIsThatSaidElseOfThePoseElseOfTheVideo) {
   EXPECT_NEAR(yaw_beside(entry_.file("crop.png")).value(), 1.5 * pi, 1e-12);
 }
 
+TEST_F(PairBeside, APictureThatIsNoViewOfADatasetIsOfNoVideo) {
+  const std::filesystem::path picture = root_.path() / "mug_1_4_1_rgb.png";
+  std::filesystem::copy_file(entry_.file("crop.png"), picture);
+  const ImagePair pair =
+      load_image_pair(picture, entry_.file("depthcrop.png"), {.cut = ObjectCut::whole});
+  EXPECT_LT((pair.view.up - up_in_camera(pi / 4.0)).norm(), 0.01) << "not 60 deg";
+}
+
 TEST_F(PairBeside, CutsAsAsked) {
   const ImagePair masked = pair();
   EXPECT_EQ(masked.cut, ObjectCut::mask);

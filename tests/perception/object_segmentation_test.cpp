@@ -175,11 +175,16 @@ CameraImages block_from_above(float height_m) {
   return images;
 }
 
-SegmentedObject segmented_from_above(const CameraImages& images,
-                                     const ObjectSegmentationOptions& options) {
+Pose above_the_table() {
   Pose T_world_camera = Pose::Identity();
   T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
   T_world_camera.translation() = Vector3d(0.0, 0.0, 2.5);
+  return T_world_camera;
+}
+
+SegmentedObject segmented_from_above(const CameraImages& images,
+                                     const ObjectSegmentationOptions& options) {
+  const Pose T_world_camera = above_the_table();
   TablePlane table;
   table.centroid_m = {0.0, 0.0, 0.5};
   table.height_m = 0.5;
@@ -209,6 +214,29 @@ TEST(SegmentOnTable, CutsOutWhatRisesToThePixel) {
             "116 pixels rise from the table, an object has at least 117");
 }
 
+/// 1.06 m to that side is seen from 2 m above: some of the table about the place, nothing of its
+/// column.
+TEST(ObjectSegmentation, SaysThatAPlaceIsBesideTheImage) {
+  CameraImages images;
+  images.width_px = 320;
+  images.height_px = 240;
+  images.focal_px = 300.0;
+  images.depth_m.assign(76800, 2.0F);
+  Rng rng(1);
+  const SegmentedObject found =
+      segment_object(images, above_the_table(), {1.42, 0.0, 0.5}, {.radius_m = 0.25}, rng);
+  EXPECT_EQ(found.reason, "the image does not show the place");
+}
+
+/// Of 12 cm round its middle a fourth is needed.
+TEST(ObjectSegmentation, ASmallPlaceNeedsLittleTable) {
+  Rng rng(1);
+  const Pose T_world_camera = above_the_table();
+  const CameraImages images = block_from_above(0.0F);
+  const ObjectSegmentationOptions small{.radius_m = 0.03};
+  EXPECT_TRUE(find_table_top(images, T_world_camera, {0.0, 0.0, 0.5}, small, rng).table);
+}
+
 TEST(SegmentOnTable, KeepsTheLargestPatch) {
   CameraImages images = block_from_above(0.1F);
   for (int row = 21; row < 29; ++row) {
@@ -234,9 +262,7 @@ TEST(SegmentOnTable, HeightsHaveLimits) {
 
 /// Seen as by block_from_above(), with a sheet on the table that covers the place's surroundings.
 TEST(FindTableTop, IsTheSurfaceRoundThePlaceWithinEightMillimetres) {
-  Pose T_world_camera = Pose::Identity();
-  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  T_world_camera.translation() = Vector3d(0.0, 0.0, 2.5);
+  const Pose T_world_camera = above_the_table();
   const auto height_m = [&](float sheet_m) {
     CameraImages images = block_from_above(0.0F);
     for (int row = 13; row < 37; ++row) {
@@ -325,9 +351,7 @@ TEST(ObjectSegmentation, SaysWhetherThePlaceIsSeen) {
 }
 
 TEST(SegmentOnTable, APlaceBesideTheImageIsNotSeen) {
-  Pose T_world_camera = Pose::Identity();
-  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  T_world_camera.translation() = Vector3d(0.0, 0.0, 2.5);
+  const Pose T_world_camera = above_the_table();
   TablePlane table;
   table.centroid_m = {0.0, 0.0, 0.5};
   const CameraImages images = block_from_above(0.1F);
@@ -344,9 +368,7 @@ TEST(SegmentOnTable, APlaceBesideTheImageIsNotSeen) {
 
 /// A sheet of 4 mm, of which three eighths round the place are 1 mm high.
 TEST(FindTableTop, IsTheMedianOfWhatIsRoundThePlace) {
-  Pose T_world_camera = Pose::Identity();
-  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  T_world_camera.translation() = Vector3d(0.0, 0.0, 2.5);
+  const Pose T_world_camera = above_the_table();
   CameraImages images = block_from_above(0.0F);
   for (int row = 13; row < 37; ++row) {
     for (int column = 18; column < 42; ++column) {

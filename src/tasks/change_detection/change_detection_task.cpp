@@ -21,13 +21,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
-/// if it does not know what is or what is expected there.
+/// if it does not know what is or what is expected there, or does not fit the task.
 Recogniser load_recogniser(const ChangeDetectionTask& task, const ObjectOnTable& truth,
                            const ObjectOnTable& expected) {
   const auto path = find_recognition_model(task.model);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   require_answer(recogniser, path, truth.object, "stands on the table");
   require_known(recogniser, path, expected.object, "is expected there");
+  require_fits(task.decision, recogniser);
   return recogniser;
 }
 

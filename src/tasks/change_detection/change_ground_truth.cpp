@@ -1,5 +1,7 @@
 #include "vantage/tasks/change_detection/change_ground_truth.hpp"
 
+#include <fmt/format.h>
+
 #include <numbers>
 #include <utility>
 
@@ -17,6 +19,12 @@ double turned_yaw_rad(const ChangeDetectionTask& task, std::uint64_t seed, doubl
 
 ObjectOnTable another_object(const ChangeDetectionTask& task, std::uint64_t seed,
                              std::vector<ObjectName> names, const std::string& expected) {
+  if (task.object == expected) {
+    throw ConfigError(fmt::format(
+        "object: '{}' is what is expected there, so nothing would change; say expected_object, or "
+        "take another seed",
+        expected));
+  }
   std::erase_if(names, [&](const ObjectName& name) { return name.object == expected; });
   if (names.empty()) throw ConfigError("scenario: object: the database has no other object");
   const ObjectName& name =

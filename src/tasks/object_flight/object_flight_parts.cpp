@@ -37,7 +37,7 @@ ObjectFlightParts::ObjectFlightParts(const ObjectFlightContext& context, const F
 FlightObservation ObjectFlightParts::observe() {
   if (records_.empty() && at_rad_ != first_rad_) {
     current_.flight = robot_.fly_along(orbit_arc(at_orbit_, at_rad_, first_rad_, task_.arc_rad));
-    at_rad_ = first_rad_;
+    at_rad_ = first_rad_ + missed_by_rad(first_rad_);
   }
   return gate_.first_admitted([this] { return robot_.observe(); });
 }
@@ -117,37 +117,38 @@ void ObjectFlightParts::record() {
 }
 
 std::string ObjectFlightParts::finished() {
-  for (;;) {
-    const std::vector<std::size_t> open = tour_.open();
-    if (open.empty()) return tour_.reason();
-    options_.clear();
-    std::vector<std::size_t> blocked;  // until the map shows a way, if views of others do
-    // To that whose nearest view is reached soonest, or to any.
-    double soonest_s = std::numeric_limits<double>::infinity();
-    for (const std::size_t target : open) {
-      std::vector<BearingOption> options = options_of(target);
-      if (options.empty()) {
-        blocked.push_back(target);
-        continue;
-      }
-      if (goal_.all_at_once) {
-        std::ranges::move(options, std::back_inserter(options_));
-        continue;
-      }
-      const auto nearest = std::ranges::min_element(
-          options, {}, [](const BearingOption& option) { return option.action.time_s; });
-      if (nearest->action.time_s >= soonest_s) continue;
-      soonest_s = nearest->action.time_s;
-      options_ = std::move(options);
-    }
+  // One whose ways are blocked is left until the map shows a way, if views of the others do.
+  for (const std::vector<std::size_t>& targets : {tour_.open(), tour_.not_over()}) {
+    options_ = options_to(targets);
     if (!options_.empty()) return "";
-    for (const std::size_t target : blocked) tour_.give_up(target, why_unreachable(target));
   }
+  for (const std::size_t target : tour_.not_over()) tour_.give_up(target, why_unreachable(target));
+  return tour_.reason();
+}
+
+/// To that whose nearest view is reached soonest, or to any.
+std::vector<BearingOption> ObjectFlightParts::options_to(
+    const std::vector<std::size_t>& targets) const {
+  std::vector<BearingOption> to_all;
+  double soonest_s = std::numeric_limits<double>::infinity();
+  for (const std::size_t target : targets) {
+    std::vector<BearingOption> options = options_of(target);
+    if (goal_.all_at_once) {
+      std::ranges::move(options, std::back_inserter(to_all));
+      continue;
+    }
+    double nearest_s = std::numeric_limits<double>::infinity();
+    for (const BearingOption& o : options) nearest_s = std::min(nearest_s, o.action.time_s);
+    if (nearest_s >= soonest_s) continue;
+    soonest_s = nearest_s;
+    to_all = std::move(options);
+  }
+  return to_all;
 }
 
 std::string ObjectFlightParts::why_unreachable(std::size_t target) const {
   for (int id = 0; id < task_.bearings; ++id) {
-    if (clear_option(target, id)) {
+    if (!is_at(target, id) && clear_option(target, id)) {
       return fmt::format("no view is reached within time_limit_s = {:g}", goal_.time_limit_s);
     }
   }
@@ -157,9 +158,7 @@ std::string ObjectFlightParts::why_unreachable(std::size_t target) const {
 std::vector<BearingOption> ObjectFlightParts::options_of(std::size_t target) const {
   std::vector<BearingOption> options;
   for (int id = 0; id < task_.bearings; ++id) {
-    const bool is_here =
-        !records_.empty() && records_.back().target == target && id == records_.back().bearing_id;
-    if (is_here) continue;
+    if (is_at(target, id)) continue;
     auto found = clear_option(target, id);
     if (found && goal_.allows(robot_.time_s() + found->action.time_s))
       options.push_back(std::move(*found));
@@ -236,17 +235,20 @@ void ObjectFlightParts::act(const BearingOption& option) {
   current_.expected_visible = option.action.visible;
   current_.flight = robot_.fly_along(option.T_world_way);
   at_orbit_ = orbit(option.target);
-  at_rad_ = option.bearing_rad;
+  const double beyond_rad = missed_by_rad(option.bearing_rad);
+  at_rad_ = option.bearing_rad + beyond_rad;
   if (current_.flight->status == FlightStatus::arrived) {
     tour_.current().inquiry.turned(option.action.yaw_rad);
     return;
   }
-  const Eigen::Vector3d p_world_m = robot_.estimated_body().translation();
-  const double beyond_rad = wrap_angle(at_orbit_.bearing_rad(p_world_m) - option.bearing_rad);
-  at_rad_ += beyond_rad;
   tour_.current().inquiry.turned(wrap_angle(option.action.yaw_rad + beyond_rad));
   log_warning(fmt::format("bearing {}: {} on the way there", option.id,
                           to_string(current_.flight->status)));
+}
+
+double ObjectFlightParts::missed_by_rad(double bearing_rad) const {
+  if (current_.flight->status == FlightStatus::arrived) return 0.0;
+  return wrap_angle(at_orbit_.bearing_rad(robot_.estimated_body().translation()) - bearing_rad);
 }
 
 Orbit ObjectFlightParts::orbit(std::size_t target) const {

@@ -63,8 +63,17 @@ class ObjectFlightParts {
  private:
   void look_at(const FlightObservation& observation);
   [[nodiscard]] double bearing_rad(int id) const;
+  /// How far beyond a bearing the last flight has ended; 0 if it has arrived.
+  [[nodiscard]] double missed_by_rad(double bearing_rad) const;
   [[nodiscard]] Orbit orbit(std::size_t target) const;
+  [[nodiscard]] std::vector<BearingOption> options_to(
+      const std::vector<std::size_t>& targets) const;
   [[nodiscard]] std::vector<BearingOption> options_of(std::size_t target) const;
+  /// Whether the last view was taken from there.
+  [[nodiscard]] bool is_at(std::size_t target, int id) const {
+    return !records_.empty() && records_.back().target == target &&
+           records_.back().bearing_id == id;
+  }
   [[nodiscard]] std::optional<BearingOption> clear_option(std::size_t target, int id) const;
   [[nodiscard]] std::string why_unreachable(std::size_t target) const;
   [[nodiscard]] bool is_clear(const FlightPlan& plan) const;

@@ -36,11 +36,15 @@ TargetTour::TargetTour(const FlightGoal& goal, const ObjectInquiry& inquiry)
 
 std::vector<std::size_t> TargetTour::open() const {
   if (!all_at_once_ && current().over().empty()) return {current_};
-  std::vector<std::size_t> open;
+  return not_over();
+}
+
+std::vector<std::size_t> TargetTour::not_over() const {
+  std::vector<std::size_t> found;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
-    if (targets_[i].over().empty()) open.push_back(i);
+    if (targets_[i].over().empty()) found.push_back(i);
   }
-  return open;
+  return found;
 }
 
 std::string TargetTour::reason() const {

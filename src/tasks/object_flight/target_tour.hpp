@@ -64,8 +64,9 @@ class TargetTour {
   void give_up(std::size_t target, std::string why) {
     targets_[target].unreachable = std::move(why);
   }
-  /// Those to be looked at still: all of them at once, or the current one as long as it is one.
+  /// Those to be looked at next: all that are not over at once, or the current one until it is.
   [[nodiscard]] std::vector<std::size_t> open() const;
+  [[nodiscard]] std::vector<std::size_t> not_over() const;
   /// How it has ended.
   [[nodiscard]] std::string reason() const;
 

@@ -21,13 +21,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
-/// if it neither knows the objects on the table nor can call them unknown.
+/// if it neither knows the objects on the table nor can call them unknown, or does not fit.
 Recogniser load_recogniser(const RecognitionTask& task, const TableGroundTruth& table) {
   const auto path = find_recognition_model(task.model);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   for (const ObjectOnTable& target : table.targets) {
     require_answer(recogniser, path, target.object, "stands on the table");
   }
+  require_fits(task.decision, recogniser);
   return recogniser;
 }
 
@@ -143,6 +144,15 @@ const auto kCurves = std::to_array<CurveMeasure>({kViewEntropy});
 
 ModelSource RecognitionTask::model_source(const EpisodeSetup& setup) const {
   return {setup.scene, setup.robot.mjcf, table_files(*this, draw_table(*this, setup.options.seed))};
+}
+
+void RecognitionTask::check_with(const EpisodeOptions& episode) const {
+  ObjectFlight::check_with(episode);
+  if (clutter.screens == 0 || clutter.screen_m <= map.height_m) return;
+  throw ConfigError(
+      fmt::format("clutter.screen_m {} is above map.height_m {}, where the robot is "
+                  "told that nothing is",
+                  clutter.screen_m, map.height_m));
 }
 
 TaskExtent RecognitionTask::extent(const EpisodeSetup& setup) const {

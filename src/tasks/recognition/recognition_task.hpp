@@ -48,6 +48,8 @@ struct RecognitionTask : ObjectFlight {
       "limit",
       between(0.0, 36000.0));
   }
+  /// Screens are no higher than the robot is told that anything is.
+  void check_with(const EpisodeOptions& episode) const;
   /// Whether the table holds more than one object.
   [[nodiscard]] bool among_others() const { return targets > 1 || clutter.any(); }
 

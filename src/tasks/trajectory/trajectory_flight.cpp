@@ -22,6 +22,7 @@ Recogniser load_recogniser(const TrajectoryFlight& task,
   for (const ObjectOnSupport& object : objects) {
     require_answer(recogniser, path, object.object, "stands in the room");
   }
+  kernel_of(task.transition, 0.0, recogniser.states.bins);  // says if it does not fit
   return recogniser;
 }
 

@@ -170,6 +170,13 @@ ChangeDetectionTask scenario(const std::string& name) {
   return task;
 }
 
+TEST(ChangeScenario, AnObjectThatIsExpectedAnywayIsNoChange) {
+  ChangeDetectionTask task = scenario("object");
+  task.object = draw_expected_object(task, 7).object;
+  EXPECT_THAT([&] { draw_object(task, 7); },
+              testing::ThrowsMessage<ConfigError>(testing::HasSubstr("nothing would change")));
+}
+
 TEST(ChangeScenario, MakesOfWhatIsExpectedWhatItSays) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const ObjectOnTable expected = draw_expected_object(scenario("none"), seed);

@@ -183,4 +183,18 @@ class ScriptedFlight : public testing::Test {
   ScriptedOrbitRobot robot_;
 };
 
+inline constexpr double kRightAngle_rad = std::numbers::pi / 2.0;
+
+inline void expect_same_places(const std::vector<Pose>& found, const std::vector<Pose>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_TRUE(found[i].isApprox(expected[i], 1e-9)) << i;
+  }
+}
+
+/// By angles that may be whole turns apart.
+inline void expect_same_turn(double found_rad, double expected_rad) {
+  EXPECT_NEAR(std::remainder(found_rad - expected_rad, 4.0 * kRightAngle_rad), 0.0, 1e-9);
+}
+
 }  // namespace vantage::support

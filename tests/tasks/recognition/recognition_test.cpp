@@ -188,6 +188,19 @@ TEST_F(RecognitionEpisode, AnObjectThatTheModelDoesNotKnowNeedsTheUnknown) {
   EXPECT_TRUE(validate_episode(kRecognition, overrides({})).problems.empty());
 }
 
+TEST_F(RecognitionEpisode, WhatDoesNotFitIsToldBeforeItBegins) {
+  const auto problem = [](const std::string& key_and_value) {
+    const Validation found =
+        validate_episode(kRecognition, overrides({"all_features=false", key_and_value}));
+    return found.problems.size() == 1 && found.code == ExitCode::usage ? found.problems[0] : "";
+  };
+  EXPECT_THAT(problem("clutter={screens: 1, screen_m: 0.51}"), testing::HasSubstr("map.height_m"));
+  EXPECT_EQ(problem("clutter={screens: 1, screen_m: 0.5}"), "");
+  EXPECT_THAT(problem("features.first=colr"), testing::HasSubstr("features.first"));
+  EXPECT_THAT(problem("transition={name: learned, slip: [1, 0, 0, 1]}"),
+              testing::HasSubstr("slip has 4 numbers"));
+}
+
 TEST_F(RecognitionEpisode, AQuadrotorIsCommandedAtEveryStep) {
   EXPECT_THROW(load_episode(kRecognition, overrides({"simulation.control_period_s=0.02"})),
                ConfigError);
