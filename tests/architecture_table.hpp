@@ -117,7 +117,7 @@ inline const std::map<std::string, Rooms> kAllowed{
     {"localisation", {"core", "geometry", "perception/clouds"}},
     {"report", {"core", "geometry", "perception/clouds", "planners/tours"}},
     {"bound", {"core", "geometry"}},
-    {"building", {"core", "geometry", "planners/navigation"}},
+    {"building", {"core", "geometry", "belief/map", "planners/navigation"}},
     {"hindsight", kTask + Rooms{"bound", "tasks", "tasks/*"}},
     {"runtime/process", {"core"}},
     {"runtime/drawing", {"core", "geometry", "belief/map", "planners/tours"}},

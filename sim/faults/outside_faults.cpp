@@ -56,7 +56,7 @@ int drawn_object(const mjModel& model, Rng& draw) {
 
 int named_object(const mjModel& model, const std::string& name) {
   const auto body = find_model_id(model, ModelObject::body, name);
-  if (!body || name.starts_with("robot/")) {
+  if (!body || *body == 0 || name.starts_with("robot/")) {
     throw ConfigError(fmt::format("faults.moved_object: the scene has no body '{}'", name));
   }
   if (!stands_fixed(model, *body)) {

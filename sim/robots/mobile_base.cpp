@@ -36,15 +36,6 @@ DrivenJoint find_driven(const RobotNames& names, std::string_view key, const std
   return found;
 }
 
-/// Every name in a robot starts with robot/.
-std::vector<int> actuators_of_robot(const mjModel& model) {
-  std::vector<int> actuators;
-  for (int i = 0; i < model.nu; ++i) {
-    if (model_name(model, ModelObject::actuator, i).starts_with("robot/")) actuators.push_back(i);
-  }
-  return actuators;
-}
-
 }  // namespace
 
 std::variant<MobileBase::Slides, MobileBase::Wheels> MobileBase::find_drive(const RobotNames& names,
@@ -80,6 +71,7 @@ void MobileBase::find_scanner(const RobotNames& names, const mjModel& model,
   base_scan_site_ = names.find(ModelObject::site, key, site);
   const Pose T_base_scan = names.pose_in(base_body_, model.site_bodyid[base_scan_site_], key) *
                            site_in_body(model, base_scan_site_);
+  names.require_direction(key, "its z axis", T_base_scan.linear().col(2), Eigen::Vector3d::UnitZ());
   T_base_base_scan_ = project_to_se2(T_base_scan);
   base_scan_height_m_ = T_base_scan.translation().z();
 }
@@ -114,10 +106,11 @@ MobileBase::Laser MobileBase::find_laser(const RobotNames& names, const mjModel&
   const int body = model.site_bodyid[site];
   names.require_part("tilting_laser.tilt", model.jnt_bodyid[tilt.joint], carrier);
   names.require_part(key, body, model.jnt_bodyid[tilt.joint]);
-  return {.tilt = tilt,
-          .body = body,
-          .site = site,
-          .T_base_low = names.pose_in(base_body_, body, key) * site_in_body(model, site)};
+  const Pose T_base_low = names.pose_in(base_body_, body, key) * site_in_body(model, site);
+  names.require_direction(key, "its y axis", T_base_low.linear().col(1), Eigen::Vector3d::UnitY());
+  names.require_direction(key, "its z axis", T_base_low.linear().col(2), Eigen::Vector3d::UnitZ());
+  names.require_on_axis(key, tilt.joint, base_body_, T_base_low.translation());
+  return {.tilt = tilt, .body = body, .site = site, .T_base_low = T_base_low};
 }
 
 MobileBase::MobileBase(const mjModel& model, const MobileBaseDescription& description,
@@ -125,7 +118,7 @@ MobileBase::MobileBase(const mjModel& model, const MobileBaseDescription& descri
     : where_(where),
       footprint_(description.footprint),
       idle_power_w_(description.idle_power_w),
-      actuators_(actuators_of_robot(model)),
+      actuators_(robot_actuators(model)),
       base_body_(RobotNames(model, where).find_root("base", description.base)),
       outline_(robot_outline(model, base_body_, description.footprint.outline_m, where)),
       drive_(find_drive(RobotNames(model, where), model, description.drive, base_body_)) {

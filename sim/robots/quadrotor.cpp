@@ -153,6 +153,7 @@ void Quadrotor::find_camera(const RobotNames& names, const mjModel& model,
   names.require_axis("camera_tilt", tilt_.joint, base_body_, Eigen::Vector3d::UnitY());
   if (model.jnt_bodyid[tilt_.joint] != mount) names.fail("camera_tilt", "it must tilt the camera");
   tilt_activation_ = activation_of(names, model, "camera_tilt", tilt_.actuator);
+  names.require_on_axis("camera_tilt", tilt_.joint, base_body_, T_base_mount.translation());
   p_body_tilt_axis_m_ = T_base_mount.translation();
   p_mount_camera_m_ = T_base_mount.linear() * T_mount_camera.translation();
 }

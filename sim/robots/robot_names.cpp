@@ -113,11 +113,42 @@ void RobotNames::require_axis(std::string_view key, int joint, int ancestor,
   const Eigen::Isometry3d T = pose_in(ancestor, model_.jnt_bodyid[joint], key);
   const Eigen::Vector3d is =
       T.linear() * Eigen::Map<const Eigen::Vector3d>(model_.jnt_axis + 3 * joint);
-  if ((is - axis).norm() < 1e-3) return;
-  fail(key, fmt::format("the axis of joint '{}' is ({:.3g}, {:.3g}, {:.3g}) in the base, "
-                        "expected ({:.3g}, {:.3g}, {:.3g})",
-                        model_name(model_, ModelObject::joint, joint), is.x(), is.y(), is.z(),
-                        axis.x(), axis.y(), axis.z()));
+  require_direction(
+      key, fmt::format("the axis of joint '{}'", model_name(model_, ModelObject::joint, joint)), is,
+      axis);
+}
+
+void RobotNames::require_direction(std::string_view key, std::string_view what,
+                                   const Eigen::Vector3d& is,
+                                   const Eigen::Vector3d& expected) const {
+  if ((is - expected).norm() < 1e-3) return;
+  fail(key, fmt::format("{} is ({:.3g}, {:.3g}, {:.3g}) in the base, expected ({:.3g}, {:.3g}, "
+                        "{:.3g})",
+                        what, is.x(), is.y(), is.z(), expected.x(), expected.y(), expected.z()));
+}
+
+void RobotNames::require_on_axis(std::string_view key, int joint, int ancestor,
+                                 const Eigen::Vector3d& p_m) const {
+  constexpr double kOff_m = 1e-3;
+  const Eigen::Isometry3d T = pose_in(ancestor, model_.jnt_bodyid[joint], key);
+  const Eigen::Vector3d axis =
+      T.linear() * Eigen::Map<const Eigen::Vector3d>(model_.jnt_axis + 3 * joint);
+  const Eigen::Vector3d anchor_m =
+      T * Eigen::Map<const Eigen::Vector3d>(model_.jnt_pos + 3 * joint);
+  const double off_m = axis.cross(p_m - anchor_m).norm();
+  if (off_m <= kOff_m) return;
+  fail(key, fmt::format("it is {:.3g} m beside the axis of joint '{}', expected on it", off_m,
+                        model_name(model_, ModelObject::joint, joint)));
+}
+
+std::vector<int> robot_actuators(const mjModel& model) {
+  std::vector<int> actuators;
+  for (int i = 0; i < model.nu; ++i) {
+    if (model_name(model, ModelObject::actuator, i).starts_with(kRobotPrefix)) {
+      actuators.push_back(i);
+    }
+  }
+  return actuators;
 }
 
 int robot_base(const mjModel& model) {

@@ -45,6 +45,14 @@ class RobotNames {
   /// reference.
   void require_axis(std::string_view key, int joint, int ancestor,
                     const Eigen::Vector3d& axis) const;
+  /// @param what has that direction, for the message
+  /// @throws InputError unless unit vectors are the same, to a milliradian.
+  void require_direction(std::string_view key, std::string_view what, const Eigen::Vector3d& is,
+                         const Eigen::Vector3d& expected) const;
+  /// @throws InputError unless the place in `ancestor` is on the joint's axis, to a millimetre,
+  /// every joint at its reference.
+  void require_on_axis(std::string_view key, int joint, int ancestor,
+                       const Eigen::Vector3d& p_m) const;
   /// "models/robots/x: head.pan: what" as an InputError.
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
 
@@ -58,6 +66,8 @@ class RobotNames {
 /// @throws InputError if there is no such body.
 int robot_base(const mjModel& model);
 std::optional<int> robot_camera(const mjModel& model);
+/// In the order of the model.
+std::vector<int> robot_actuators(const mjModel& model);
 
 /// Of a position and a quaternion (w, x, y, z, of any length) of MuJoCo.
 Eigen::Isometry3d pose_of(const double* p, const double* wxyz);

@@ -1,16 +1,20 @@
 #include "vantage/building/free_floor.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "vantage/core/error.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr double kSquare_m = 0.05;
+constexpr double kMostSquares = 67108864.0;  // 410 x 410 m
 /// More room than that makes no start better.
 constexpr double kPlenty_m = 1.2;
 
@@ -60,8 +64,16 @@ Squares squares_of(const FittedGrid& grid, const std::vector<std::uint8_t>& soli
                           grid.cell_at(2, options.headroom_m) + 1};
   Squares squares;
   squares.corner_m = {grid.line_m(0, 0), grid.line_m(1, 0)};
-  squares.nx = static_cast<int>((grid.line_m(0, grid.cells(0)) - squares.corner_m.x()) / kSquare_m);
-  squares.ny = static_cast<int>((grid.line_m(1, grid.cells(1)) - squares.corner_m.y()) / kSquare_m);
+  const Eigen::Vector2d edges_m(grid.line_m(0, grid.cells(0)), grid.line_m(1, grid.cells(1)));
+  const Eigen::Array2d count = ((edges_m - squares.corner_m) / kSquare_m).array();
+  if (count.prod() > kMostSquares) {
+    throw ConfigError(
+        fmt::format("the building is {:.0f} x {:.0f} m, more than a start is looked "
+                    "for in: is --scale right?",
+                    count.x() * kSquare_m, count.y() * kSquare_m));
+  }
+  squares.nx = static_cast<int>(count.x());
+  squares.ny = static_cast<int>(count.y());
   for (int y = 0; y < squares.ny; ++y) {
     const int row = grid.cell_at(1, squares.corner_m.y() + (y + 0.5) * kSquare_m);
     for (int x = 0; x < squares.nx; ++x) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "vantage/belief/map/floor_detail.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/yaml.hpp"
 
@@ -98,7 +100,16 @@ double rounded_up(double value, double step) { return step * std::ceil(value / s
 
 /// More than an exploration needs that ends by itself.
 int scans_for(const BuildingMap& map) {
-  return std::max(20, static_cast<int>(std::lround(0.4 * map.size_m.prod())));
+  constexpr double kMostScans = 10000.0;
+  return static_cast<int>(std::lround(std::clamp(0.4 * map.size_m.prod(), 20.0, kMostScans)));
+}
+
+/// Where the finer map of the floor would have too many cells of the usual size: from 136 m on.
+std::optional<double> larger_floor_cell_m(const BuildingMap& map) {
+  const double parts = FloorDetailOptions{}.parts;
+  const double most_cells = std::floor(std::sqrt(kMaxFloorCells) / parts);
+  const double cell_m = rounded_up(2.0 * map.half_size_m / most_cells, 0.005);
+  return cell_m > FloorMapOptions{}.cell_m ? std::optional(cell_m) : std::nullopt;
 }
 
 }  // namespace
@@ -151,14 +162,20 @@ std::string to_mjcf(const BuildingScene& scene, const std::string& name,
 
 std::vector<std::string> episode_overrides(const BuildingScene& scene) {
   const BuildingMap map = map_of(scene);
-  return {fmt::format("scans={}", scans_for(map)),
-          fmt::format("map.size_m=[{}, {}, 2]", number(map.size_m.x()), number(map.size_m.y())),
-          fmt::format("map.cells=[{}, {}, {}]", map.cells.x(), map.cells.y(), map.cells.z()),
-          fmt::format("floor_map.half_size_m={}", number(map.half_size_m))};
+  std::vector<std::string> keys{
+      fmt::format("scans={}", scans_for(map)),
+      fmt::format("map.size_m=[{}, {}, 2]", number(map.size_m.x()), number(map.size_m.y())),
+      fmt::format("map.cells=[{}, {}, {}]", map.cells.x(), map.cells.y(), map.cells.z()),
+      fmt::format("floor_map.half_size_m={}", number(map.half_size_m))};
+  if (const auto cell_m = larger_floor_cell_m(map)) {
+    keys.push_back("floor_map.cell_m=" + number(*cell_m));
+  }
+  return keys;
 }
 
 std::string to_episode(const BuildingScene& scene, const std::string& scene_file) {
   const BuildingMap map = map_of(scene);
+  const auto cell_m = larger_floor_cell_m(map);
   return fmt::format(
       R"(# A PR2-like robot explores {0}. As the small office's episode but for scene, scans and map.
 task: exploration
@@ -168,14 +185,15 @@ robot: {{start_site: start_0}}
 map: {{centre_m: [0, 0, 1], size_m: [{2}, {3}, 2], cells: [{4}, {5}, {6}]}}
 base_scanner: {{step_rad: 0.004363323129985824, range_max_m: 30}}    # 0.25 deg, and the far walls in sight
 registration: {{normals: {{radius_m: 0.25}}}}
-floor_map: {{half_size_m: {7}}}
+floor_map: {{half_size_m: {7}{8}}}
 simulation: {{timestep_s: 0.005}}    # nothing is touched
 forecast: {{calibrate: true}}
 gain: adaptive
 choice: greedy
 )",
       yaml_text(scene_file), scans_for(map), number(map.size_m.x()), number(map.size_m.y()),
-      map.cells.x(), map.cells.y(), map.cells.z(), number(map.half_size_m));
+      map.cells.x(), map.cells.y(), map.cells.z(), number(map.half_size_m),
+      cell_m ? ", cell_m: " + number(*cell_m) : "");
 }
 
 }  // namespace vantage

@@ -79,6 +79,14 @@ TEST(SceneText, EpisodesHaveTheMapAndScansByArea) {
   EXPECT_THAT(to_episode(hall_of(4.0, 4.0), "hall.xml"), HasSubstr("\nscans: 20\n"));
 }
 
+/// The finer map of the floor has at most 2^13 cells along an edge, three to each of 0.05 m.
+TEST(SceneText, AVastFloorHasLargerCells) {
+  EXPECT_THAT(to_episode(hall_of(134.5, 20.0), "hall.xml"), HasSubstr("{half_size_m: 68}"));
+  EXPECT_THAT(to_episode(hall_of(140.0, 20.0), "hall.xml"),
+              HasSubstr("{half_size_m: 70.5, cell_m: 0.055}"));
+  EXPECT_THAT(episode_overrides(hall_of(140.0, 20.0)), testing::Contains("floor_map.cell_m=0.055"));
+}
+
 /// What a line of an episode says, without remark.
 std::string said(const std::string& episode, const std::string& key) {
   const std::size_t from = episode.find("\n" + key + ": ") + 1;

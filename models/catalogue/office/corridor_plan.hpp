@@ -34,9 +34,9 @@ FloorPlan corridor_loop(const CorridorOptions& options);
 /// @throws ConfigError if an option is out of range.
 OfficeScene make_corridor_scene(const CorridorOptions& options);
 
-/// The scenes checked in under models/scenes: corridor_loop_1 and corridor_long_1, which options
-/// are chosen on, `_b_1`, which were reported on until a rule was changed by them, and `_c_1`,
-/// which results are reported on.
+/// The scenes checked in under models/scenes: corridor_{loop,long}_1, corridor_loop_c_1 and
+/// corridor_long_b_1, which options are chosen on, the latter two since a rule was changed by them;
+/// corridor_{loop,long}_d_1, which results are reported on.
 std::vector<CorridorOptions> corridor_scenes();
 
 }  // namespace vantage

@@ -42,9 +42,11 @@ std::string with(std::string text, const std::string& what, const std::string& i
 /// A folder outside the repository with the rover's MJCF and a robot.yaml of its own.
 class Folder {
  public:
-  explicit Folder(const std::string& yaml) {
+  explicit Folder(const std::string& yaml, const std::string& what = {},
+                  const std::string& instead = {}) {
     write_file(path() / "robot.yaml", yaml);
-    fs::copy_file(test::robot_folder("rover").mjcf, path() / "robot.xml");
+    write_file(path() / "robot.xml",
+               with(read_file(test::robot_folder("rover").mjcf), what, instead));
   }
   [[nodiscard]] fs::path path() const { return folder_.path(); }
 
@@ -52,8 +54,10 @@ class Folder {
   support::TemporaryDirectory folder_;
 };
 
-std::string complaint(const std::string& yaml) {
-  const Folder folder(yaml);
+/// @param what of the MJCF is replaced
+std::string complaint(const std::string& yaml, const std::string& what = {},
+                      const std::string& instead = {}) {
+  const Folder folder(yaml, what, instead);
   return test::message_of<Error>([&] {
     const RobotFolder robot = read_robot(folder.path());
     const test::SceneFolder scene(test::scene_mjcf(""));
@@ -119,6 +123,23 @@ TEST(RobotDescription, JointsMustBeWhatTheKeySays) {
               HasSubstr("neither slide nor hinge"));
   EXPECT_THAT(complaint(with(kRover, "free_joint: robot/base", "free_joint: robot/head_pan")),
               HasSubstr("not the free joint of body 'robot/base'"));
+}
+
+TEST(RobotDescription, LasersMustBeMountedAsTheyAreReckonedWith) {
+  const std::string scanner = "<site name=\"robot/base_scan\" ";
+  EXPECT_EQ(complaint(kRover, scanner, scanner + "euler=\"0 0 0.7\" "), "") << "it may be turned";
+  EXPECT_THAT(complaint(kRover, scanner, scanner + "euler=\"3.14159265 0 0\" "),
+              HasSubstr("planar_scanner: its z axis is"))
+      << "upside down, left and right change places";
+  const std::string laser = "<site name=\"robot/laser\"";
+  EXPECT_THAT(complaint(kRover, laser, laser + " euler=\"0 0 3.14159265\""),
+              HasSubstr("tilting_laser.site: its y axis is"));
+  EXPECT_THAT(complaint(kRover, laser, laser + " euler=\"0 0.1 0\""),
+              HasSubstr("tilting_laser.site: its z axis is"));
+  EXPECT_EQ(complaint(kRover, laser, laser + " pos=\"0.0009 0.1 0\""), "");
+  EXPECT_THAT(complaint(kRover, laser, laser + " pos=\"0.03 0 0.04\""),
+              HasSubstr("tilting_laser.site: it is 0.05 m beside the axis of joint "
+                        "'robot/laser_tilt'"));
 }
 
 TEST(RobotDescription, UnknownKindsAndKeysAreErrors) {
@@ -232,6 +253,9 @@ TEST(RobotDescription, AQuadrotorsCameraIsOnABodyThatItsServoTilts) {
             "mini: camera: it must be on a body of its own, a child of the base");
   EXPECT_EQ(flight_complaint({{camera, ""}, {"<!-- Legs. -->", "<body>" + camera + "</body>"}}),
             "mini: camera_tilt: it must tilt the camera");
+  const std::string joint = "<joint name=\"robot/camera_tilt\" ";
+  EXPECT_THAT(flight_complaint(joint, joint + "pos=\"0 0 0.02\" "),
+              HasSubstr("mini: camera_tilt: it is 0.02 m beside the axis"));
 }
 
 TEST(RobotDescription, ARotorIsAnActuatorAtASiteWithARangeAndALag) {

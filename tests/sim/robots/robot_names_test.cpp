@@ -138,6 +138,21 @@ TEST(RobotNames, AnAxisMayBeAThousandthOff) {
   EXPECT_THAT(opposite, HasSubstr(") in the base, expected (1, "));
 }
 
+/// The axis of robot/turn goes along the base's x, 0.25 m above it.
+TEST(RobotNames, APlaceOnAnAxisMayBeAMillimetreOff) {
+  const Names arm;
+  const int base = arm.scene.body("robot/base");
+  const auto refused = [&](const Eigen::Vector3d& p_m) {
+    return arm.refused(
+        [&](const RobotNames& names) { names.require_on_axis("eye", 2, base, p_m); });
+  };
+  EXPECT_EQ(refused({7.0, 0.0, 0.25}), "");
+  EXPECT_EQ(refused({7.0, 0.0006, 0.2507}), "");
+  EXPECT_EQ(refused({0.5, 0.3, 0.65}),
+            "robots/x: eye: it is 0.5 m beside the axis of joint 'robot/turn', expected on it");
+  EXPECT_NE(refused({0.5, 0.0, 0.2515}), "");
+}
+
 TEST(RobotNames, ABaseStandsInNoOtherBody) {
   const Names arm;
   EXPECT_EQ(arm.names.find_root("base", "robot/base"), arm.scene.body("robot/base"));
