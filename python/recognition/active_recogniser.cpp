@@ -98,14 +98,17 @@ py::dict ActiveRecogniser::update(const Colours& rgb, const Depths& depth,
   require_turn(turned_rad, "turned_rad");
   const ObjectView picture = picture_of(rgb, depth, camera);
   const ObjectView view = object_of_picture(picture, mask);
+  // Without the lock others may read or change what is known, so that a copy is worked with.
+  Recognition next = known_;
+  Rng rng = rng_;
   without_lock([&] {
-    Recognition next = known_;
     predict_motion(recogniser_, options_, turned_rad, next);
     const double bearing_rad = turned_rad + (next.views.empty() ? 0.0 : next.views.back().view_rad);
     update_with_view(recogniser_, options_, extract_from(recogniser_, view), bearing_rad, next,
-                     rng_);
-    known_ = std::move(next);
+                     rng);
   });
+  known_ = std::move(next);
+  rng_ = rng;
   return last_view();
 }
 
@@ -136,15 +139,18 @@ py::dict ActiveRecogniser::next_feature(const std::vector<std::string>& extracte
     options.push_back({.model = &feature.observation, .tables = nullptr, .extracted = done});
   }
   const Eigen::VectorXd belief = p_state(known_.belief);
+  const double weight = next_view_weight(recogniser_, known_);
+  Rng rng = rng_;
   const FeatureDecision decision = without_lock([&] {
     return choose_feature(options_.features,
                           {.database = recogniser_.states,
                            .belief = belief,
                            .features = options,
                            .last_score = {},
-                           .weight = next_view_weight(recogniser_, known_)},
-                          rng_);
+                           .weight = weight},
+                          rng);
   });
+  rng_ = rng;
   py::dict gains;
   for (const FeatureScore& score : decision.scores) {
     gains[py::str(recogniser_.features[score.feature].observation.feature)] = score.gain.bits;
@@ -169,8 +175,11 @@ py::dict ActiveRecogniser::next_view(const std::optional<std::vector<double>>& t
     require_turn(turn, "turns_rad");
     actions.push_back({.yaw_rad = turn, .visited = was_visited(turn)});
   }
-  const NextView next = without_lock(
-      [&] { return vantage::next_view(recogniser_, options_, known_, actions, rng_); });
+  const Recognition known = known_;
+  Rng rng = rng_;
+  const NextView next =
+      without_lock([&] { return vantage::next_view(recogniser_, options_, known, actions, rng); });
+  rng_ = rng;
   std::vector<double> gains;
   for (const ObjectViewScore& score : next.decision.scores) gains.push_back(score.gain.bits);
   return py::dict(py::arg("turn_rad") = turns_rad[next.decision.action],
