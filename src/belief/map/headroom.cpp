@@ -45,10 +45,10 @@ class Columns {
     for (int y = 0; y < ny_; ++y) {
       for (int x = 0; x < nx_; ++x) {
         const int occupied = count(grid, x, y, body, CellState::occupied);
-        const int higher = count(grid, x, y, above, CellState::occupied);
         const int unseen = count(grid, x, y, seen, CellState::unobserved);
         const bool wall = scanner_m && occupied >= kOfWall * (body.end - body.begin) &&
-                          higher >= kOfWallAbove * (above.end - above.begin) &&
+                          count(grid, x, y, above, CellState::occupied) >=
+                              kOfWallAbove * (above.end - above.begin) &&
                           state_at(grid, x, y, *scanner_m) == CellState::occupied;
         columns_.push_back(wall                  ? Column::wall
                            : occupied > 0        ? Column::obstructed
