@@ -74,18 +74,32 @@ void describe_camera(const mjvScene& scene, RenderedImages& out) {
   out.focal_px = 0.5 * out.height_px * camera.frustum_near / camera.frustum_top;
 }
 
-/// Moves the near plane, if anything, away from the camera.
-void cut_away(mjvScene& scene, double near_m) {
-  for (mjvGLCamera& camera : scene.camera) {
-    const float scale = std::max(1.0F, static_cast<float>(near_m) / camera.frustum_near);
-    for (float* edge : {&camera.frustum_near, &camera.frustum_top, &camera.frustum_bottom,
-                        &camera.frustum_center}) {
-      *edge *= scale;
-    }
+/// The same field of view from another near plane on.
+void move_near_plane(mjvGLCamera& camera, double near_m) {
+  const float scale = static_cast<float>(near_m) / camera.frustum_near;
+  for (float* edge : {&camera.frustum_near, &camera.frustum_top, &camera.frustum_bottom,
+                      &camera.frustum_center}) {
+    *edge *= scale;
   }
 }
 
-/// The far plane, and the sky with it, where a camera for people stands far off.
+/// Moves the near plane, if anything, away from the camera.
+void cut_away(mjvScene& scene, double near_m) {
+  for (mjvGLCamera& camera : scene.camera) {
+    if (near_m > camera.frustum_near) move_near_plane(camera, near_m);
+  }
+}
+
+/// Moves the near plane, if anything, towards the camera.
+void look_nearer(mjvScene& scene, double near_m) {
+  constexpr double kNearest_m = 0.01;  // depth is of few digits far off otherwise
+  for (mjvGLCamera& camera : scene.camera) {
+    const double wanted_m = std::max(near_m, kNearest_m);
+    if (wanted_m < camera.frustum_near) move_near_plane(camera, wanted_m);
+  }
+}
+
+/// Moves the far plane, if anything, away from the camera.
 void look_farther(mjvScene& scene, double far_m) {
   for (mjvGLCamera& camera : scene.camera) {
     camera.frustum_far = std::max(camera.frustum_far, static_cast<float>(far_m));
@@ -144,17 +158,10 @@ std::size_t flipped(int row, int column, const mjrRect& viewport) {
 }  // namespace
 
 GlScene::GlScene(const mjModel& model) : model_(&model) {
-  mjv_defaultScene(&scene_);
-  mjr_defaultContext(&context_);
   make_context(model, context_);
   if (!context_.windowAvailable) throw RendererError("OpenGL: no default framebuffer");
   const int geoms = model.ngeom + model.nskin + 1000 + static_cast<int>(kMaxMarkers);
   mjv_makeScene(&model, &scene_, geoms);
-}
-
-GlScene::~GlScene() {
-  mjv_freeScene(&scene_);
-  mjr_freeContext(&context_);
 }
 
 void GlScene::update(const mjData& data, const CameraView& view, const RenderRequest& request) {
@@ -168,6 +175,8 @@ void GlScene::update(const mjData& data, const CameraView& view, const RenderReq
   mjv_updateScene(model_, drawn, &option, nullptr, &camera, mjCAT_ALL, &scene_);
   const auto fovy_rad = std::visit([](const auto& camera) { return camera.fovy_rad; }, view);
   if (fovy_rad) set_field_of_view(scene_, *fovy_rad);
+  look_nearer(scene_, request.near_at_most_m);
+  look_farther(scene_, request.far_at_least_m);
   if (const auto* free = std::get_if<FreeCamera>(&view); free != nullptr && free->cutaway_m) {
     cut_away(scene_, free->distance_m - *free->cutaway_m);
   }

@@ -12,15 +12,26 @@
 
 namespace vantage {
 
+/// Empty at first, and freed with its owner, even one whose constructor throws.
+struct OwnedScene : mjvScene {
+  OwnedScene() : mjvScene{} { mjv_defaultScene(this); }
+  OwnedScene(const OwnedScene&) = delete;
+  OwnedScene& operator=(const OwnedScene&) = delete;
+  ~OwnedScene() { mjv_freeScene(this); }
+};
+struct OwnedContext : mjrContext {
+  OwnedContext() : mjrContext{} { mjr_defaultContext(this); }
+  OwnedContext(const OwnedContext&) = delete;
+  OwnedContext& operator=(const OwnedContext&) = delete;
+  ~OwnedContext() { mjr_freeContext(this); }
+};
+
 /// Owns an mjvScene and an mjrContext. The context that was current at construction must be current
 /// again at each call and at destruction.
 class GlScene {
  public:
   /// @throws RendererError if MuJoCo cannot use the current context.
   explicit GlScene(const mjModel& model);
-  GlScene(const GlScene&) = delete;
-  GlScene& operator=(const GlScene&) = delete;
-  ~GlScene();
 
   /// Draws into the context's default framebuffer of that size and reads the images back.
   void render(const mjData& data, const CameraView& view, const RenderRequest& request,
@@ -37,8 +48,8 @@ class GlScene {
 
   const mjModel* model_;
   std::optional<OuterWalls> walls_;  ///< found when people look first
-  mjvScene scene_{};
-  mjrContext context_{};
+  OwnedScene scene_;
+  OwnedContext context_;
   std::vector<float> buffer_depth_;  ///< scratch, bottom row first
   std::vector<unsigned char> buffer_rgb_;
 };

@@ -70,6 +70,9 @@ struct RenderRequest {
   std::vector<Marker> markers = {};  ///< at most kMaxMarkers; seen in rgb only
   /// What lies wholly farther along the optical axis need not be drawn.
   double range_m = std::numeric_limits<double>::infinity();
+  /// Near and far plane, where those of the scene would cut off what a sensor's range holds.
+  double near_at_most_m = std::numeric_limits<double>::infinity();
+  double far_at_least_m = 0.0;
 };
 
 /// Row-major, top row first. What was not requested is empty.

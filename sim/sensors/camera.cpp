@@ -56,10 +56,12 @@ namespace {
 
 /// Depth is that of surfaces, without errors; 0: there is none.
 CameraImages drawn_by(Renderer& renderer, const mjModel& model, const mjData& data, int camera_id,
-                      const RenderRequest& request, const RgbdOptions& options) {
+                      RenderRequest request, const RgbdOptions& options) {
   expects(renderer.width_px() == options.width_px && renderer.height_px() == options.height_px,
           "renderer of the camera's image size");
   expects(camera_id >= 0 && camera_id < model.ncam, "camera id of the model");
+  request.near_at_most_m = options.range_min_m;
+  request.far_at_least_m = options.range_max_m;
   RenderedImages drawn;
   renderer.render(model, data, FixedCamera{camera_id, options.fovy_rad}, request, drawn);
   return {.width_px = drawn.width_px,

@@ -227,6 +227,23 @@ TEST(Camera, ADepthImageIsTheDepthOfTheWhole) {
   EXPECT_TRUE(depth.rgb.empty());
 }
 
+/// A post at 0.5 m before a wall at 5 m, in a scene that is drawn from 0.9 m to 3 m.
+TEST(Camera, ItsRangeIsDrawnWhateverPlanesASceneSets) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><statistic extent='1' center='0 0 0'/><visual><map znear='.9' zfar='3'/></visual>"
+      "<worldbody><camera name='ahead' xyaxes='0 -1 0 0 0 1'/>"
+      "<geom type='box' size='.1 .05 1' pos='.6 0 0'/>"
+      "<geom type='box' size='.1 9 9' pos='5.1 0 0'/></worldbody></mujoco>");
+  RgbdOptions options = exact_options();
+  options.range_min_m = 0.3;
+  options.range_max_m = 6.0;
+  const CameraImages images = take(scene, "ahead", options);
+  EXPECT_NEAR(images.depth_m[pixel(images, 75, 100)], 0.5, 1e-3);
+  EXPECT_NEAR(images.depth_m[pixel(images, 75, 20)], 5.0, 1e-2);
+  options.range_min_m = 0.0;
+  EXPECT_NEAR(take(scene, "ahead", options).depth_m[pixel(images, 75, 20)], 5.0, 1e-2);
+}
+
 template <class T>
 concept TellsBodyIds = requires(const T& images) {
   images.segmentation;
