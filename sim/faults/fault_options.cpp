@@ -51,6 +51,9 @@ void FaultOptions::check() const {
     throw ConfigError(fmt::format("gust_duration_s: {} is longer than gust_every_s = {}",
                                   gust_duration_s, gust_every_s));
   }
+  if (!moved_object.empty() && moved_object_m == 0.0) {
+    throw ConfigError(fmt::format("moved_object: '{}' moves by moved_object_m = 0", moved_object));
+  }
 }
 
 std::string_view name_of(Fault fault) { return row_of(fault).name; }

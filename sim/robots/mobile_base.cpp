@@ -14,6 +14,8 @@
 namespace vantage {
 namespace {
 
+using enum JointType;
+
 double position(const World& world, const DrivenJoint& joint) {
   return world.data().qpos[joint.qpos];
 }
@@ -30,8 +32,8 @@ Twist2 in_base(double vx_world_m_s, double vy_world_m_s, double wz_rad_s, double
 }
 
 DrivenJoint find_driven(const RobotNames& names, std::string_view key, const std::string& joint,
-                        int base, const Eigen::Vector3d& axis) {
-  const DrivenJoint found = names.driven(key, joint);
+                        JointType type, int base, const Eigen::Vector3d& axis) {
+  const DrivenJoint found = names.driven(key, joint, type);
   names.require_axis(key, found.joint, base, axis);
   return found;
 }
@@ -43,19 +45,21 @@ std::variant<MobileBase::Slides, MobileBase::Wheels> MobileBase::find_drive(cons
                                                                             const BaseDrive& drive,
                                                                             int base) {
   if (const auto* slides = std::get_if<OmnidirectionalDrive>(&drive)) {
-    const auto axis = [&](std::string_view key, const std::string& joint,
-                          const Eigen::Vector3d& along) {
-      return find_driven(names, key, joint, base, along);
+    const auto found = [&](std::string_view key, const std::string& joint, JointType type,
+                           const Eigen::Vector3d& axis) {
+      return find_driven(names, key, joint, type, base, axis);
     };
-    return Slides{.x = axis("drive.x", slides->x, Eigen::Vector3d::UnitX()),
-                  .y = axis("drive.y", slides->y, Eigen::Vector3d::UnitY()),
-                  .yaw = axis("drive.yaw", slides->yaw, Eigen::Vector3d::UnitZ()),
-                  .speed_max_m_s = slides->speed_max_m_s};
+    const Slides all{.x = found("drive.x", slides->x, slide, Eigen::Vector3d::UnitX()),
+                     .y = found("drive.y", slides->y, slide, Eigen::Vector3d::UnitY()),
+                     .yaw = found("drive.yaw", slides->yaw, hinge, Eigen::Vector3d::UnitZ()),
+                     .speed_max_m_s = slides->speed_max_m_s};
+    names.require_planar("drive", base, {all.x.joint, all.y.joint, all.yaw.joint});
+    return all;
   }
   const auto& wheels = std::get<DifferentialDrive>(drive);
   const int joint = names.free_joint("drive.free_joint", wheels.free_joint, base);
   const auto wheel = [&](std::string_view key, const std::string& name) {
-    return find_driven(names, key, name, base, Eigen::Vector3d::UnitY());
+    return find_driven(names, key, name, hinge, base, Eigen::Vector3d::UnitY());
   };
   return Wheels{.free_joint = wheels.free_joint,
                 .qpos = model.jnt_qposadr[joint],
@@ -69,8 +73,10 @@ void MobileBase::find_scanner(const RobotNames& names, const mjModel& model,
                               const std::string& site) {
   constexpr std::string_view key = "planar_scanner";
   base_scan_site_ = names.find(ModelObject::site, key, site);
-  const Pose T_base_scan = names.pose_in(base_body_, model.site_bodyid[base_scan_site_], key) *
-                           site_in_body(model, base_scan_site_);
+  base_scan_body_ = model.site_bodyid[base_scan_site_];
+  const Pose T_base_scan =
+      names.pose_in(base_body_, base_scan_body_, key) * site_in_body(model, base_scan_site_);
+  names.require_fixed(key, base_scan_body_, base_body_);
   names.require_direction(key, "its z axis", T_base_scan.linear().col(2), Eigen::Vector3d::UnitZ());
   T_base_base_scan_ = project_to_se2(T_base_scan);
   base_scan_height_m_ = T_base_scan.translation().z();
@@ -79,29 +85,30 @@ void MobileBase::find_scanner(const RobotNames& names, const mjModel& model,
 int MobileBase::find_lift(const RobotNames& names, const mjModel& model, const std::string& joint) {
   if (joint.empty()) return base_body_;
   lift_joint_ = joint;
-  lift_ = find_driven(names, "lift", joint, base_body_, Eigen::Vector3d::UnitZ());
+  lift_ = find_driven(names, "lift", joint, slide, base_body_, Eigen::Vector3d::UnitZ());
   return model.jnt_bodyid[lift_->joint];
 }
 
 MobileBase::Head MobileBase::find_head(const RobotNames& names, const mjModel& model,
                                        const HeadNames& head, int carrier) const {
   const DrivenJoint pan =
-      find_driven(names, "head.pan", head.pan, base_body_, Eigen::Vector3d::UnitZ());
+      find_driven(names, "head.pan", head.pan, hinge, base_body_, Eigen::Vector3d::UnitZ());
   const DrivenJoint tilt =
-      find_driven(names, "head.tilt", head.tilt, base_body_, Eigen::Vector3d::UnitY());
+      find_driven(names, "head.tilt", head.tilt, hinge, base_body_, Eigen::Vector3d::UnitY());
   const int body = model.jnt_bodyid[pan.joint];
   const int camera = names.find(ModelObject::camera, "head.camera", head.camera);
   names.require_part("head.pan", body, carrier);
   names.require_part("head.tilt", model.jnt_bodyid[tilt.joint], body);
   names.require_part("head.camera", model.cam_bodyid[camera], model.jnt_bodyid[tilt.joint]);
+  names.require_level_camera("head.camera", camera, base_body_);
   return {.pan = pan, .tilt = tilt, .body = body, .camera = camera};
 }
 
 MobileBase::Laser MobileBase::find_laser(const RobotNames& names, const mjModel& model,
                                          const TiltingLaserNames& laser, int carrier) const {
   constexpr std::string_view key = "tilting_laser.site";
-  const DrivenJoint tilt =
-      find_driven(names, "tilting_laser.tilt", laser.tilt, base_body_, Eigen::Vector3d::UnitY());
+  const DrivenJoint tilt = find_driven(names, "tilting_laser.tilt", laser.tilt, hinge, base_body_,
+                                       Eigen::Vector3d::UnitY());
   const int site = names.find(ModelObject::site, key, laser.site);
   const int body = model.site_bodyid[site];
   names.require_part("tilting_laser.tilt", model.jnt_bodyid[tilt.joint], carrier);

@@ -46,6 +46,7 @@ class MobileBase {
   [[nodiscard]] double head_rate_rad_s(const World& world) const;  ///< the faster of both joints
   [[nodiscard]] double laser_tilt_rad(const World& world) const;
   [[nodiscard]] AngleRange laser_tilt_range() const;
+  [[nodiscard]] double lift_min_m() const { return lift_ ? lift_->min : 0.0; }
   [[nodiscard]] double lift_max_m() const { return lift_ ? lift_->max : 0.0; }
 
   /// Truth: for metrics and as the input of odometry.
@@ -81,6 +82,7 @@ class MobileBase {
   [[nodiscard]] int laser_site_id() const { return laser().site; }
   [[nodiscard]] int laser_body_id() const { return laser().body; }
   [[nodiscard]] int base_scan_site_id() const { return base_scan_site_; }
+  [[nodiscard]] int base_scan_body_id() const { return base_scan_body_; }
   [[nodiscard]] int base_body_id() const { return base_body_; }
 
   /// Geoms of other things that the robot touches, ascending. Not its own, nor the floor that it
@@ -142,6 +144,7 @@ class MobileBase {
   std::optional<Head> head_;
   std::optional<Laser> laser_;
   int base_scan_site_ = 0;
+  int base_scan_body_ = 0;
   Pose2 T_base_base_scan_;
   double base_scan_height_m_ = 0.0;
 };

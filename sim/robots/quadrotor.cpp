@@ -65,13 +65,6 @@ double downward_gravity(const mjModel& model, const std::string& scene) {
   return -gravity.z();
 }
 
-/// Axes of a camera of MuJoCo's, looking along -z, that looks along x.
-Eigen::Matrix3d level_camera() {
-  Eigen::Matrix3d R;
-  R << 0.0, 0.0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
-  return R;
-}
-
 /// Where the state of an actuator is. Those without one come first.
 int activation_of(const RobotNames& names, const mjModel& model, std::string_view key,
                   int actuator) {
@@ -146,10 +139,8 @@ void Quadrotor::find_camera(const RobotNames& names, const mjModel& model,
   }
   const Eigen::Isometry3d T_base_mount = names.pose_in(base_body_, mount, key);
   const Eigen::Isometry3d T_mount_camera = camera_in_body(model, camera_);
-  if (!(T_base_mount * T_mount_camera).linear().isApprox(level_camera(), 1e-3)) {
-    names.fail(key, "it must look along the base's x at tilt 0: xyaxes=\"0 -1 0 0 0 1\"");
-  }
-  tilt_ = names.driven("camera_tilt", tilt_joint_);
+  names.require_level_camera(key, camera_, base_body_);
+  tilt_ = names.driven("camera_tilt", tilt_joint_, JointType::hinge);
   names.require_axis("camera_tilt", tilt_.joint, base_body_, Eigen::Vector3d::UnitY());
   if (model.jnt_bodyid[tilt_.joint] != mount) names.fail("camera_tilt", "it must tilt the camera");
   tilt_activation_ = activation_of(names, model, "camera_tilt", tilt_.actuator);

@@ -56,10 +56,12 @@ int RobotNames::find_root(std::string_view key, const std::string& name) const {
                    name));
 }
 
-DrivenJoint RobotNames::driven(std::string_view key, const std::string& name) const {
+DrivenJoint RobotNames::driven(std::string_view key, const std::string& name,
+                               JointType type) const {
   const int joint = find(ModelObject::joint, key, name);
-  if (model_.jnt_type[joint] != mjJNT_SLIDE && model_.jnt_type[joint] != mjJNT_HINGE) {
-    fail(key, fmt::format("joint '{}' is neither slide nor hinge", name));
+  const bool slides = type == JointType::slide;
+  if (model_.jnt_type[joint] != (slides ? mjJNT_SLIDE : mjJNT_HINGE)) {
+    fail(key, fmt::format("joint '{}' is no {}", name, slides ? "slide" : "hinge"));
   }
   std::vector<int> actuators;
   for (int i = 0; i < model_.nu; ++i) {
@@ -139,6 +141,34 @@ void RobotNames::require_on_axis(std::string_view key, int joint, int ancestor,
   if (off_m <= kOff_m) return;
   fail(key, fmt::format("it is {:.3g} m beside the axis of joint '{}', expected on it", off_m,
                         model_name(model_, ModelObject::joint, joint)));
+}
+
+void RobotNames::require_fixed(std::string_view key, int body, int ancestor) const {
+  if (model_.body_weldid[body] == model_.body_weldid[ancestor]) return;
+  fail(key, fmt::format("it moves against body '{}', expected fixed to it",
+                        model_name(model_, ModelObject::body, ancestor)));
+}
+
+void RobotNames::require_planar(std::string_view key, int body,
+                                const std::array<int, 3>& joints) const {
+  const std::string name = model_name(model_, ModelObject::body, body);
+  for (const int joint : joints) {
+    if (model_.jnt_bodyid[joint] == body && joint <= joints.back()) continue;
+    fail(key, fmt::format("the joints must all be those of body '{}', x and y before yaw", name));
+  }
+  const Eigen::Isometry3d T = pose_of(model_.body_pos + 3 * body, model_.body_quat + 4 * body);
+  if (T.translation().head<2>().norm() < 1e-6 && T.linear().isIdentity(1e-6)) return;
+  fail(key, fmt::format("body '{}' must be upright over the origin: no pos along x or y, no turn",
+                        name));
+}
+
+void RobotNames::require_level_camera(std::string_view key, int camera, int ancestor) const {
+  Eigen::Matrix3d level;
+  level << 0.0, 0.0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
+  const Eigen::Isometry3d T =
+      pose_in(ancestor, model_.cam_bodyid[camera], key) * camera_in_body(model_, camera);
+  if (T.linear().isApprox(level, 1e-3)) return;
+  fail(key, "it must look along the base's x with every joint at 0: xyaxes=\"0 -1 0 0 0 1\"");
 }
 
 std::vector<int> robot_actuators(const mjModel& model) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@
 #include "vantage/sim/world/world.hpp"
 
 namespace vantage {
+
+enum class JointType { slide, hinge };
 
 /// A joint of one degree of freedom and the actuator that drives it.
 struct DrivenJoint {
@@ -31,9 +34,10 @@ class RobotNames {
   [[nodiscard]] int find(ModelObject kind, std::string_view key, const std::string& name) const;
   /// A body that stands in no other. @throws InputError
   [[nodiscard]] int find_root(std::string_view key, const std::string& name) const;
-  /// @throws InputError also if the joint is neither slide nor hinge, or no one actuator with a
-  /// control range drives it.
-  [[nodiscard]] DrivenJoint driven(std::string_view key, const std::string& joint) const;
+  /// @throws InputError also if the joint is of another type, or no one actuator with a control
+  /// range drives it.
+  [[nodiscard]] DrivenJoint driven(std::string_view key, const std::string& joint,
+                                   JointType type) const;
   /// A joint of the body with six degrees of freedom. @throws InputError
   [[nodiscard]] int free_joint(std::string_view key, const std::string& joint, int body) const;
   /// @throws InputError if `body` is no part of `ancestor`.
@@ -53,6 +57,14 @@ class RobotNames {
   /// every joint at its reference.
   void require_on_axis(std::string_view key, int joint, int ancestor,
                        const Eigen::Vector3d& p_m) const;
+  /// @throws InputError unless `body` is fixed to `ancestor`, no joint between them.
+  void require_fixed(std::string_view key, int body, int ancestor) const;
+  /// @throws InputError unless these joints of `body`, the turning one last, move it in the plane
+  /// of the world, from its origin.
+  void require_planar(std::string_view key, int body, const std::array<int, 3>& joints) const;
+  /// @throws InputError unless the camera looks along the x axis of `ancestor`, with its y axis to
+  /// the left, every joint at its reference.
+  void require_level_camera(std::string_view key, int camera, int ancestor) const;
   /// "models/robots/x: head.pan: what" as an InputError.
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
 

@@ -52,15 +52,16 @@ bool is_repeated(const CameraImages& before, const CameraImages& now) {
   return before.depth_m == now.depth_m && std::ranges::any_of(now.depth_m, is_measured);
 }
 
-std::size_t discard_repeated_lines(RangeScan& scan, std::span<const float> before) {
+std::size_t discard_repeated_lines(RangeScan& scan, std::vector<float>& last) {
   const auto same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
   std::vector<std::size_t> repeated;
   for (std::size_t line = 0; line < scan.lines(); ++line) {
     const std::span<const float> now = line_of(scan, line);
-    if (std::ranges::equal(before, now, same) && std::ranges::any_of(now, is_measured)) {
+    if (std::ranges::all_of(now, [](float range) { return std::isnan(range); })) continue;
+    if (std::ranges::equal(last, now, same) && std::ranges::any_of(now, is_measured)) {
       repeated.push_back(line);
     }
-    before = now;
+    last.assign(now.begin(), now.end());
   }
   for (const std::size_t line : repeated) std::ranges::fill(line_of(scan, line), kInvalid);
   return repeated.size();

@@ -19,9 +19,11 @@ std::size_t discard_unusable(PlanarScan& scan);      ///< to NaN
 /// noise measures twice the same, so this one is stale.
 bool is_repeated(const CameraImages& before, const CameraImages& now);
 
-/// Makes lines invalid that repeat the line before, likewise. @return how many there were
-/// @param before the last line of the scan before, as it came; empty: there is none
-std::size_t discard_repeated_lines(RangeScan& scan, std::span<const float> before = {});
+/// Makes lines invalid that repeat the line before, likewise; lost ones, all NaN, are no lines.
+/// @return how many there were
+/// @param last the last line that was not lost of the scan before, as it came, then of this one;
+/// empty: there is none
+std::size_t discard_repeated_lines(RangeScan& scan, std::vector<float>& last);
 
 /// Share of the lines with at least one valid beam, no return being one; 0 without lines.
 double share_of_valid_lines(const RangeScan& scan);

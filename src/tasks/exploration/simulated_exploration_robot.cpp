@@ -57,13 +57,14 @@ Pose2 start_pose(const World& world, const EpisodeSetup& setup) {
                                               : fmt::format("known: {}", fmt::join(known, ", "))));
 }
 
-/// The lift that brings the camera from `lowest_m` to frontiers.height_m.
+/// The lift that brings the camera from `unlifted_m` to frontiers.height_m.
 /// @throws ConfigError if it cannot.
-double camera_lift_m(const MobileBase& robot, double lowest_m, const Exploration& task) {
+double camera_lift_m(const MobileBase& robot, double unlifted_m, const Exploration& task) {
   const double height_m = task.frontiers.height_m;
-  const double lift_m = height_m - lowest_m;
-  if (lift_m < -1e-2 || lift_m > robot.lift_max_m() + 1e-6) {
-    const double highest_m = lowest_m + robot.lift_max_m();
+  const double lift_m = height_m - unlifted_m;
+  if (lift_m < robot.lift_min_m() - 1e-2 || lift_m > robot.lift_max_m() + 1e-6) {
+    const double lowest_m = unlifted_m + robot.lift_min_m();
+    const double highest_m = unlifted_m + robot.lift_max_m();
     const double fitting_m =
         std::floor(1e3 * std::clamp(height_m, lowest_m, highest_m) + 1e-6) / 1e3;
     throw ConfigError(fmt::format(
@@ -71,7 +72,7 @@ double camera_lift_m(const MobileBase& robot, double lowest_m, const Exploration
         "robot.yaml episode_defaults: {{exploration: {{frontiers: {{height_m: {:.3f}}}}}}}",
         height_m, lowest_m, highest_m, fitting_m, fitting_m));
   }
-  return std::clamp(lift_m, 0.0, robot.lift_max_m());
+  return std::clamp(lift_m, robot.lift_min_m(), robot.lift_max_m());
 }
 
 MobileBase placed_robot(World& world, const EpisodeSetup& setup, const Exploration& task) {

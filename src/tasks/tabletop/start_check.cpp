@@ -59,8 +59,9 @@ void require_table(const World& world, const EpisodeSetup& setup, const Tabletop
 }
 
 void check_reach(const World& world, const MobileBase& robot, const Tabletop& task) {
-  const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.lift_m(world);
-  const double highest_m = lowest_m + robot.lift_max_m();
+  const double unlifted_m = robot.T_base_laser_mount(world).translation().z() - robot.lift_m(world);
+  const double lowest_m = unlifted_m + robot.lift_min_m();
+  const double highest_m = unlifted_m + robot.lift_max_m();
   const double height_m = task.candidates.height_m;
   if (height_m < lowest_m - 1e-3 || height_m > highest_m) {
     const double fitting_m =

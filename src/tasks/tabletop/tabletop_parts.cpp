@@ -10,16 +10,13 @@ namespace vantage {
 namespace {
 
 /// Discards what says nothing. @return whether enough is left
-/// @param last_line of the scan before, then of this one
+/// @param last_line that came, of the scan before, then of this one
 bool keep_usable(TabletopObservation& observation, std::vector<float>& last_line) {
   constexpr double kLeastLines = 0.1;  // of a scan
   RangeScan& scan = observation.scan;
   discard_unusable(observation.base_scan);
   discard_unusable(scan);
-  const auto first = scan.range_m.size() - std::min(scan.beams(), scan.range_m.size());
-  const std::vector<float> before = std::exchange(
-      last_line, {scan.range_m.begin() + static_cast<std::ptrdiff_t>(first), scan.range_m.end()});
-  discard_repeated_lines(scan, before);
+  discard_repeated_lines(scan, last_line);
   return share_of_valid_lines(scan) >= kLeastLines;
 }
 

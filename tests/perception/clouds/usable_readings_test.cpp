@@ -64,7 +64,9 @@ TEST(RepeatedLines, AreDiscardedButTheFirst) {
   RangeScan scan = scan_of({1.0F, kNaN, 1.0F, kNaN, 1.0F, kNaN, 1.1F, kNaN,  //
                             kInfinity, kNaN, kInfinity, kNaN},
                            2);
-  EXPECT_EQ(discard_repeated_lines(scan), 2U);
+  std::vector<float> last;
+  EXPECT_EQ(discard_repeated_lines(scan, last), 2U);
+  expect_same(last, {kInfinity, kNaN});
   expect_same(scan.range_m, {1.0F, kNaN, kNaN, kNaN, kNaN, kNaN, 1.1F, kNaN,  //
                              kInfinity, kNaN, kInfinity, kNaN});
   EXPECT_DOUBLE_EQ(share_of_valid_lines(scan), 4.0 / 6.0);
@@ -72,20 +74,34 @@ TEST(RepeatedLines, AreDiscardedButTheFirst) {
 }
 
 TEST(RepeatedLines, AreComparedWithTheLastLineOfTheScanBefore) {
-  const std::vector<float> before{2.0F, kNaN};
+  const auto discarded = [](RangeScan& scan) {
+    std::vector<float> last{2.0F, kNaN};
+    return discard_repeated_lines(scan, last);
+  };
   RangeScan scan = scan_of({2.0F, kNaN, 2.5F, 1.0F}, 2);
-  EXPECT_EQ(discard_repeated_lines(scan, before), 1U);
+  EXPECT_EQ(discarded(scan), 1U);
   expect_same(scan.range_m, {kNaN, kNaN, 2.5F, 1.0F});
   RangeScan other = scan_of({kNaN, 2.0F, 2.5F, 1.0F}, 2);
-  EXPECT_EQ(discard_repeated_lines(other, before), 0U);
+  EXPECT_EQ(discarded(other), 0U);
   RangeScan shorter = scan_of({2.0F, 3.0F}, 1);
-  EXPECT_EQ(discard_repeated_lines(shorter, before), 0U);
+  EXPECT_EQ(discarded(shorter), 0U);
+}
+
+/// A sensor that hangs shows again what it showed before a line was lost.
+TEST(RepeatedLines, AreRecognisedBehindLostOnes) {
+  std::vector<float> last;
+  RangeScan scan = scan_of({2.0F, 3.0F, kNaN, kNaN, 2.0F, 3.0F, kNaN, kNaN}, 2);
+  EXPECT_EQ(discard_repeated_lines(scan, last), 1U);
+  expect_same(scan.range_m, {2.0F, 3.0F, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN});
+  RangeScan next = scan_of({2.0F, 3.0F}, 2);
+  EXPECT_EQ(discard_repeated_lines(next, last), 1U);
 }
 
 /// What is not above 0 is no measurement, however often it is repeated.
 TEST(RepeatedLines, MustHaveMeasuredSomething) {
   RangeScan scan = scan_of({0.0F, kInfinity, 0.0F, kInfinity, -1.0F, 0.0F, -1.0F, 0.0F}, 2);
-  EXPECT_EQ(discard_repeated_lines(scan), 0U);
+  std::vector<float> last;
+  EXPECT_EQ(discard_repeated_lines(scan, last), 0U);
 }
 
 TEST(ValidLines, HaveAtLeastOneBeamThatIsANumber) {

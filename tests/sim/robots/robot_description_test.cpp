@@ -120,7 +120,7 @@ TEST(RobotDescription, JointsMustBeWhatTheKeySays) {
   EXPECT_THAT(complaint(with(kRover, "pan: robot/head_pan", "pan: robot/head_tilt")),
               AllOf(HasSubstr("head.pan"), HasSubstr("axis")));
   EXPECT_THAT(complaint(with(kRover, "left_wheel: robot/left_wheel", "left_wheel: robot/base")),
-              HasSubstr("neither slide nor hinge"));
+              HasSubstr("joint 'robot/base' is no hinge"));
   EXPECT_THAT(complaint(with(kRover, "free_joint: robot/base", "free_joint: robot/head_pan")),
               HasSubstr("not the free joint of body 'robot/base'"));
 }
@@ -140,6 +140,66 @@ TEST(RobotDescription, LasersMustBeMountedAsTheyAreReckonedWith) {
   EXPECT_THAT(complaint(kRover, laser, laser + " pos=\"0.03 0 0.04\""),
               HasSubstr("tilting_laser.site: it is 0.05 m beside the axis of joint "
                         "'robot/laser_tilt'"));
+}
+
+/// In a case that the beams would not get out of, if it were not the scanner's own.
+TEST(RobotDescription, AScannerMayHaveABodyOfItsOwnThatStandsStill) {
+  const std::string site = "<site name=\"robot/base_scan\" pos=\"0.085 0 0.170\"/>";
+  const std::string body = "<body name=\"robot/case\">" + site;
+  EXPECT_EQ(complaint(kRover, site, body + "</body>"), "");
+  EXPECT_THAT(complaint(kRover, site,
+                        body + "<joint/><geom type=\"sphere\" size=\"0.01\" mass=\"1\"/></body>"),
+              HasSubstr("planar_scanner: it moves against body 'robot/base'"));
+}
+
+TEST(RobotDescription, AHeadLooksAheadAtRest) {
+  const std::string camera = "<camera name=\"robot/camera\" pos=\"0.030 0 0\" xyaxes=\"0 -1 0 ";
+  EXPECT_THAT(complaint(kRover, camera + "0 0 1", camera + "0.3 0 0.954"),
+              HasSubstr("head.camera: it must look along the base's x"));
+}
+
+constexpr auto kSlider = R"(kind: mobile_base
+model: robot.xml
+base: robot/base
+footprint: {inscribed_radius_m: 0.1, circumscribed_radius_m: 0.15}
+drive: {name: omnidirectional, x: robot/x, y: robot/y, yaw: robot/yaw}
+planar_scanner: robot/base_scan
+)";
+
+/// @param body attributes @param joints of it
+std::string slider_complaint(const std::string& body, const std::vector<std::string>& joints) {
+  const support::TemporaryDirectory folder;
+  write_file(folder.path() / "robot.yaml", kSlider);
+  std::string text = "<mujoco><worldbody><body name='robot/base' " + body + ">";
+  for (const std::string& joint : joints) text += "<joint " + joint + "/>";
+  text +=
+      "<geom size='.1' pos='0 0 .1'/><site name='robot/base_scan' pos='0 0 .25'/></body>"
+      "</worldbody><actuator>";
+  for (const char* name : {"x", "y", "yaw"}) {
+    text += std::string("<velocity name='robot/") + name + "' joint='robot/" + name +
+            "' ctrllimited='true' ctrlrange='-1 1'/>";
+  }
+  write_file(folder.path() / "robot.xml", text + "</actuator></mujoco>");
+  return test::message_of<Error>([&] {
+    const RobotFolder robot = read_robot(folder.path());
+    const test::SceneFolder scene(test::scene_mjcf(""));
+    const World world({scene.path(), robot.mjcf});
+    test::mobile_base(world, robot);
+  });
+}
+
+TEST(RobotDescription, SlidesAreThoseOfTheWorld) {
+  const std::string x = "name='robot/x' type='slide' axis='1 0 0'";
+  const std::string y = "name='robot/y' type='slide' axis='0 1 0'";
+  const std::string yaw = "name='robot/yaw' axis='0 0 1'";
+  EXPECT_EQ(slider_complaint("", {x, y, yaw}), "");
+  EXPECT_EQ(slider_complaint("pos='0 0 .02'", {x, y, yaw}), "");
+  EXPECT_THAT(slider_complaint("", {yaw, x, y}), HasSubstr("drive: the joints must all be those"));
+  for (const char* off : {"pos='1 0 0'", "euler='0 0 90'"}) {
+    EXPECT_THAT(slider_complaint(off, {x, y, yaw}), HasSubstr("upright over the origin")) << off;
+  }
+  EXPECT_THAT(slider_complaint("", {"name='robot/x' axis='1 0 0'", y, yaw}),
+              HasSubstr("drive.x: joint 'robot/x' is no slide"));
 }
 
 TEST(RobotDescription, UnknownKindsAndKeysAreErrors) {

@@ -54,7 +54,7 @@ struct Names {
 };
 
 TEST(RobotNames, AJointGoesWithTheActuatorThatDrivesIt) {
-  const DrivenJoint turn = Names().names.driven("head.pan", "robot/turn");
+  const DrivenJoint turn = Names().names.driven("head.pan", "robot/turn", JointType::hinge);
   EXPECT_EQ(turn.joint, 2);
   EXPECT_EQ(turn.qpos, 8);
   EXPECT_EQ(turn.dof, 7);
@@ -65,15 +65,18 @@ TEST(RobotNames, AJointGoesWithTheActuatorThatDrivesIt) {
 
 TEST(RobotNames, AJointThatCannotBeDrivenIsRefused) {
   const Names arm;
-  const auto driven = [&](const char* joint) {
-    return arm.refused([&](const RobotNames& names) { (void)names.driven("lift", joint); });
+  const auto driven = [&](const char* joint, JointType type = JointType::hinge) {
+    return arm.refused([&](const RobotNames& names) { (void)names.driven("lift", joint, type); });
   };
-  EXPECT_EQ(driven("robot/any"), "robots/x: lift: joint 'robot/any' is neither slide nor hinge");
+  EXPECT_EQ(driven("robot/any"), "robots/x: lift: joint 'robot/any' is no hinge");
+  EXPECT_EQ(driven("robot/slip"), "robots/x: lift: joint 'robot/slip' is no hinge");
+  EXPECT_EQ(driven("robot/turn", JointType::slide),
+            "robots/x: lift: joint 'robot/turn' is no slide");
   EXPECT_EQ(driven("robot/loose"),
             "robots/x: lift: 0 actuators drive joint 'robot/loose', expected one");
   EXPECT_EQ(driven("robot/double"),
             "robots/x: lift: 2 actuators drive joint 'robot/double', expected one");
-  EXPECT_EQ(driven("robot/slip"),
+  EXPECT_EQ(driven("robot/slip", JointType::slide),
             "robots/x: lift: the actuator of joint 'robot/slip' has no ctrlrange");
 }
 

@@ -74,8 +74,8 @@ TabletopObservation lines_from(float least_m) {
   return observation;
 }
 
-TabletopObservation with_usable_lines(std::ptrdiff_t lines) {
-  TabletopObservation observation = lines_from(1.0F);
+TabletopObservation with_usable_lines(std::ptrdiff_t lines, float least_m) {
+  TabletopObservation observation = lines_from(least_m);
   std::fill(observation.scan.range_m.begin() + 3 * lines, observation.scan.range_m.end(), 0.0F);
   return observation;
 }
@@ -83,7 +83,7 @@ TabletopObservation with_usable_lines(std::ptrdiff_t lines) {
 TEST(TabletopParts, TakeAScanAgainOfWhichLessThanATenthSaysAnything) {
   AtToldTable at;
   at.parts.scans_.resize(1);
-  at.robot.to_see = {with_usable_lines(1), with_usable_lines(2)};
+  at.robot.to_see = {with_usable_lines(1, 1.0F), with_usable_lines(2, 1.5F)};
   testing::internal::CaptureStderr();
   const TabletopObservation seen = at.parts.observe();
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("it is taken again"));

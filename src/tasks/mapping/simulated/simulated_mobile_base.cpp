@@ -103,7 +103,7 @@ const RayScene& SimulatedMobileBase::seen_geometry() {
 PlanarScan SimulatedMobileBase::read_base_scanner() {
   PlanarScan scan =
       planar_scan(seen_geometry(), robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
-                  robot_.base_body_id(), scanner_, scanner_noise_);
+                  robot_.base_scan_body_id(), scanner_, scanner_noise_);
   faults_.spoil_planar(scan, world_.time_s());
   return scan;
 }
@@ -113,7 +113,7 @@ void SimulatedMobileBase::note_localisation(const RegistrationOptions& registrat
   Rng noise = Rng::stream(seed, "start check");
   const PlanarScan scan =
       planar_scan(seen_geometry(), robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
-                  robot_.base_body_id(), scanner_, noise);
+                  robot_.base_scan_body_id(), scanner_, noise);
   const ReferenceMap reference(registration);
   if (reference.walls_fix_pose(scan, base_scan_height_m())) return;
   notes.push_back(

@@ -22,7 +22,7 @@ SimulatedTurningRobot::SimulatedTurningRobot(const EpisodeSetup& setup, const Wa
 PlanarScan SimulatedTurningRobot::observe() {
   geometry_.update(world_.snapshot());
   return planar_scan(geometry_, robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
-                     robot_.base_body_id(), task_.base_scanner, scanner_noise_);
+                     robot_.base_scan_body_id(), task_.base_scanner, scanner_noise_);
 }
 
 void SimulatedTurningRobot::turn(double rate_rad_s) {
