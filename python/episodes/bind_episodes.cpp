@@ -64,8 +64,15 @@ struct NoSuchView : BadDecision {
   using BadDecision::BadDecision;
 };
 
+/// Of all arrays numpy says that they can be an index.
+bool is_index(const py::object& answer) {
+  if (PyIndex_Check(answer.ptr()) == 0) return false;
+  return !py::isinstance<py::array>(answer) ||
+         py::reinterpret_borrow<py::array>(answer).ndim() == 0;
+}
+
 OutsideDecision decision_of(const py::object& answer) {
-  if (PyIndex_Check(answer.ptr()) != 0) {
+  if (is_index(answer)) {
     const Py_ssize_t index = PyNumber_AsSsize_t(answer.ptr(), nullptr);  // cut, if too large
     if (PyErr_Occurred() != nullptr) throw py::error_already_set();
     if (index < 0) throw NoSuchView(fmt::format("view {} was chosen", index));
@@ -108,6 +115,9 @@ OutsideDecision ask(const py::function& planner, const std::string& name,
   } catch (const NoSuchView& error) {  // as an index above all: a result, not raised again
     throw EpisodeFailed(
         fmt::format("{}: {}, there are {}", name, error.what(), request.candidates.size()));
+  } catch (const py::error_already_set& error) {
+    raised.error = std::current_exception();
+    if (error.matches(PyExc_KeyboardInterrupt)) throw Interrupted(SIGINT);
   } catch (...) {
     raised.error = std::current_exception();
   }
@@ -124,8 +134,7 @@ py::tuple run_episode(const ResolvedEpisode& episode, const std::optional<fs::pa
   options.lean = lean;
   options.command = {"python", "vantage.run"};
   Raised raised;
-  SignalPoll poll;
-  options.spectator.on_tick = [&](const World&) {
+  auto end_if_signalled = [&, poll = SignalPoll()]() mutable {
     try {
       poll();
     } catch (...) {
@@ -133,6 +142,8 @@ py::tuple run_episode(const ResolvedEpisode& episode, const std::optional<fs::pa
       throw Interrupted(SIGINT);
     }
   };
+  options.spectator.on_tick = [&](const World&) { end_if_signalled(); };
+  const StopPoll while_it_thinks{end_if_signalled};
   py::function function;
   if (!planner.is_none()) {
     function = py::cast<py::function>(planner);

@@ -24,11 +24,13 @@ namespace fs = std::filesystem;
 constexpr double kMaxCells = 268435456.0;
 
 std::array<double, 3> edges_of(const py::object& cell_size_m) {
-  if (py::isinstance<py::float_>(cell_size_m) || py::isinstance<py::int_>(cell_size_m)) {
-    const auto edge = cell_size_m.cast<double>();
-    return {edge, edge, edge};
+  const auto edges = Doubles::ensure(cell_size_m);
+  if (edges && edges.ndim() == 0) return {*edges.data(), *edges.data(), *edges.data()};
+  if (!edges || edges.ndim() != 1 || edges.shape(0) != 3) {
+    PyErr_Clear();
+    refuse("cell_size_m", "neither a number nor three");
   }
-  return cell_size_m.cast<std::array<double, 3>>();
+  return {edges.at(0), edges.at(1), edges.at(2)};
 }
 
 GridFrame frame_of(const Cells& cells, const std::array<double, 3>& corner_m,

@@ -10,6 +10,7 @@
 #include "python/kit/calls.hpp"
 #include "python/kit/options.hpp"
 #include "python/recognition/active_recogniser.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/perception/dataset_index.hpp"
 #include "vantage/recognition/training.hpp"
 
@@ -30,6 +31,7 @@ void train(
   how.tell = tell ? *tell : [](const std::string&, std::size_t, std::size_t) {};
   how.feature_cache = cache.value_or(fs::path());
   without_lock([&] {
+    make_writable_directory(fs::absolute(out).parent_path());
     write_recognition_model(train_recognition(index_dataset(dataset), wanted, how), out);
   });
 }

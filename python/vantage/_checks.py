@@ -5,7 +5,7 @@ from __future__ import annotations
 import numbers
 import operator
 from collections.abc import Mapping, Sequence
-from os import PathLike
+from os import PathLike, fspath
 from reprlib import repr as short
 from typing import Any, NoReturn
 
@@ -58,6 +58,7 @@ def keys(name: str, value: Any) -> dict[str, Any]:
 
 def path(name: str, value: Any) -> str:
     """The name of a file or folder."""
-    if not isinstance(value, (str, PathLike)):
+    written = fspath(value) if isinstance(value, (str, PathLike)) else None
+    if not isinstance(written, str):
         refuse(name, value, "is not a name or path")
-    return str(value)
+    return written

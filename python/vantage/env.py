@@ -133,11 +133,13 @@ class Env(_Base):  # type: ignore[misc]
         The same seed gives the same observations, step by step.
         """
         keys = _checks.keys("options", options)
+        if "seed" in keys:
+            _checks.refuse("options", keys, "has a seed: it is an argument of its own")
         if seed is not None:
             self._next_seed = _checks.whole("seed", seed, 0)
             self._seed_own()
         self._stop()
-        episode, now = _mapping(self._name, {**self._overrides, **keys, "seed": self._next_seed})
+        episode, now = _mapping(self._name, {**_with(self._overrides, keys), "seed": self._next_seed})
         _checks.blocks("blocks", self.blocks, now["map"]["cells"])
         self._cells = int(np.prod(now["map"]["cells"]))
         self._next_seed += 1
@@ -272,6 +274,16 @@ def _mapping(name: str, keys: dict[str, Any]) -> tuple[_core.Episode, dict[str, 
         raise _core.ConfigError(f"choice: {options['choice']['name']} asks ground truth, which an environment must "
                                 "not learn of")
     return episode, options
+
+
+def _with(keys: dict[str, Any], more: dict[str, Any]) -> dict[str, Any]:
+    """Keys with more of them; of nested ones each by itself, but for strategies, which have a name."""
+    both = dict(keys)
+    for key, value in more.items():
+        before = both.get(key)
+        nested = isinstance(before, dict) and isinstance(value, dict) and "name" not in value
+        both[key] = _with(before, value) if nested and before is not None else value
+    return both
 
 
 def _most_candidates(options: dict[str, Any]) -> int:

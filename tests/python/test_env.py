@@ -248,6 +248,14 @@ class Environments(unittest.TestCase):
         ratio = large["candidates"][:, COLUMN["gain"]].max() / small["candidates"][:, COLUMN["gain"]].max()
         self.assertLess(abs(np.log(ratio)), np.log(2))  # and not 8
 
+    def test_keys_of_a_reset_leave_the_others_beside_them(self):
+        with make() as env:
+            before, _ = env.reset(seed=1)
+            after, _ = env.reset(seed=1, options={"laser": {"noise_sigma_m": 0.02}})
+            self.assertEqual(after["state"][5], before["state"][5], "as long a scan")
+            with self.assertRaisesRegex(vantage.ConfigError, "seed"):
+                env.reset(options={"seed": 5})
+
     def test_a_reset_that_fails_shows_nothing_of_the_episode_before(self):
         with make() as env:
             env.reset(seed=1)

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -84,8 +85,7 @@ class Runs(InFolder):
 
     def test_planners_may_name_a_pose(self):
         def aside(request):
-            x, y, yaw = request.pose
-            return (x + 0.2, y, yaw)
+            return request.pose + np.array([0.2, 0.0, 0.0])
 
         run = self.run_small("pose", scans=2, planner=aside, lean=True)
         self.assertEqual(run.metrics["status"], "completed")
@@ -118,6 +118,23 @@ class Runs(InFolder):
             vantage.run("tabletop", out=self.folder / "stopped")
         self.assertEqual(vantage.load(self.folder / "stopped").metrics["status"], "interrupted")
 
+    def test_ctrl_c_while_a_planner_thinks_is_no_failure(self):
+        def interrupted(request):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            self.run_small("thinking", planner=interrupted, lean=True)
+        self.assertEqual(vantage.load(self.folder / "thinking").metrics["status"], "interrupted")
+
+    def test_ctrl_c_is_heard_while_another_program_thinks(self):
+        choice = {"name": "external", "command": ["sleep", "100"], "startup_timeout_s": 100}
+        start = time.monotonic()
+        timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            self.run_small("asleep", choice=choice, lean=True)
+        self.assertLess(time.monotonic() - start, 50)
+
     def test_are_read_back(self):
         run = self.run_small("whole", video=True)
         back = vantage.load(run.directory)
@@ -144,6 +161,13 @@ class Runs(InFolder):
         self.run_small("whole", lean=True, overwrite=True)
         with self.assertRaisesRegex(vantage.InputError, "candidates.csv"):
             back.candidates
+
+    def test_files_are_named_by_any_path(self):
+        (self.folder / "mine.yaml").write_text("task: tabletop\nscans: 3\n")
+        with os.scandir(self.folder) as entries:
+            self.assertEqual(vantage.episode(next(entries)).options["scans"], 3)
+        with self.assertRaisesRegex(vantage.ConfigError, "is not a name or path"):
+            vantage.episode(b"tabletop")
 
     def test_keys_that_are_wrong_are_told(self):
         for message, keys in {"unknown key 'scanz'": {"scanz": 1}, "map.cells": {"map": {"cells": [1, 2]}},

@@ -52,12 +52,23 @@ class Grids(InFolder):
             room().shares((41, 1, 1))
         np.testing.assert_allclose(whole, [room().count(i) for i in range(3)], rtol=1e-5)
 
+    def test_as_many_blocks_as_a_long_grid_has_cells(self):
+        shares = vantage.Grid(np.zeros((65536, 1, 1))).shares((65536, 1, 1))
+        np.testing.assert_allclose(shares.sum(axis=0), 1.0, atol=1e-6)
+
+    def test_edges_of_cells_are_one_number_or_three(self):
+        for edge in (0.5, np.float32(0.5), np.array(0.5), (0.5, 0.5, 0.5)):
+            np.testing.assert_array_equal(vantage.Grid(np.zeros((2, 2, 2)), (0, 0, 0), edge).cell_size_m, 0.5)
+
     def test_bad_grids_are_refused(self):
         for bad in (np.zeros((0, 1, 1)), np.zeros((2, 2)), np.full((2, 2, 2), np.nan)):
             with self.assertRaises(vantage.ConfigError):
                 vantage.Grid(bad)
         for edge in (0.0, -1.0, np.nan, np.inf):
             with self.assertRaisesRegex(vantage.ConfigError, "cell_size_m"):
+                vantage.Grid(np.zeros((2, 2, 2)), (0, 0, 0), edge)
+        for edge in ((0.1, 0.1), "wide"):
+            with self.assertRaisesRegex(vantage.ConfigError, "cell_size_m: neither a number nor three"):
                 vantage.Grid(np.zeros((2, 2, 2)), (0, 0, 0), edge)
         with self.assertRaisesRegex(vantage.ConfigError, "no probability"):
             vantage.Grid.from_probabilities(np.full((2, 2, 2), 1.5))
@@ -284,6 +295,8 @@ class Trajectories(unittest.TestCase):
         for cost in (lambda q: 1.0, lambda q: np.full(8, np.nan), lambda q: "x", lambda q: np.zeros(3)):
             with self.assertRaisesRegex(vantage.ConfigError, "cost"):
                 vantage.optimise_trajectory(self.path, cost)
+        with self.assertRaisesRegex(vantage.ConfigError, "no finite cost"):
+            vantage.optimise_trajectory(self.path, lambda q: np.zeros(8), sigma_m=[1e160] * 3)
         with self.assertRaises(ZeroDivisionError):
             vantage.optimise_trajectory(self.path, lambda q: 1 / 0)
         with self.assertRaises(TypeError):

@@ -36,7 +36,7 @@ class Recognition(InFolder):
         cls.dataset = cls.root / "objects"
         subprocess.run([BINARY, "dataset", "render", str(cls.dataset), "-q", "--set", "objects=4",
                         "--set", "step_deg=24", "--set", "supersampling=1"], check=True, stdout=subprocess.DEVNULL)
-        cls.model = cls.root / "small.model"
+        cls.model = cls.root / "new" / "small.model"
         cls.told = []
         vantage.train(cls.dataset, cls.model, features=["soft_colour", "standing_box"], transition_prior_moves=0,
                       progress=lambda *part: cls.told.append(part))

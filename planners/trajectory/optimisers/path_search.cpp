@@ -45,7 +45,11 @@ double PathSearch::evaluate(const Eigen::Ref<const Eigen::Matrix4Xd>& free_point
   cost_of_point_ = state_cost_;
   add_control_cost(tried_, cost_of_point_);
   const double cost = cost_of_point_.sum();
-  expects(std::isfinite(cost), "a path has a finite cost");
+  if (!std::isfinite(cost)) {
+    throw ConfigError(
+        "a path has no finite cost: a weight of the cost, or how far paths are varied, is too "
+        "large");
+  }
   if (evaluations_ == 0) initial_cost_ = cost;
   if (evaluations_ == 0 || cost < best_cost_) {
     best_cost_ = cost;

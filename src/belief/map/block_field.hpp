@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace vantage {
@@ -13,17 +14,16 @@ struct BlockLayout {
   Eigen::Array3i cells = Eigen::Array3i::Ones();   ///< of the grid
   Eigen::Array3i blocks = Eigen::Array3i::Ones();  ///< along each axis
 
-  [[nodiscard]] int block_of(int axis, int cell) const { return cell * blocks[axis] / cells[axis]; }
+  [[nodiscard]] int block_of(int axis, int cell) const {
+    return static_cast<int>(std::int64_t{cell} * blocks[axis] / cells[axis]);
+  }
   [[nodiscard]] std::size_t size() const {
     return static_cast<std::size_t>(blocks.x()) * static_cast<std::size_t>(blocks.y()) *
            static_cast<std::size_t>(blocks.z());
   }
   /// Of a block, x fastest.
   [[nodiscard]] std::size_t index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(blocks.y()) +
-            static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(blocks.x()) +
-           static_cast<std::size_t>(x);
+    return static_cast<std::size_t>((std::int64_t{z} * blocks.y() + y) * blocks.x() + x);
   }
   [[nodiscard]] std::size_t index_of_cell(const Eigen::Array3i& cell) const {
     return index(block_of(0, cell.x()), block_of(1, cell.y()), block_of(2, cell.z()));

@@ -18,6 +18,8 @@ TEST(BlockLayout, DividesCellsEvenly) {
   EXPECT_EQ(layout.block_of(1, 2), 0);
   EXPECT_EQ(layout.block_of(1, 3), 1);
   EXPECT_EQ(layout.block_of(2, 1), 2) << "more blocks than cells: some are empty";
+  const BlockLayout fine{.cells = {65536, 1, 1}, .blocks = {65536, 1, 1}};
+  EXPECT_EQ(fine.block_of(0, 65535), 65535) << "whose product is beyond an int";
   std::set<std::size_t> seen;
   for (int z = 0; z < 4; ++z) {
     for (int y = 0; y < 3; ++y) {

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/runtime/process/command_files.hpp"
@@ -78,7 +79,10 @@ void ExternalPlanner::start() {
     conversation_.emplace(
         program,
         [](std::string_view line) { log_debug(fmt::format("planner: {}", printable(line, 1000))); },
-        throw_if_interrupted);
+        [] {
+          throw_if_interrupted();
+          poll_stop();
+        });
   } catch (const OutputError& error) {
     fail(error.what());
   }
