@@ -20,9 +20,12 @@ RunRequest lean_request(const ResolvedEpisode& resolved, const std::filesystem::
   options.overwrite = true;
   options.lean = true;
   const Task& task = resolved.task;
-  return {resolved.setup,    std::string(strategy_name_of(task)),
-          method_name(task), episode_yaml(resolved),
-          inputs(task),      options};
+  return {resolved.setup,
+          std::string(strategy_name_of(task)),
+          method_name(task),
+          episode_yaml(resolved),
+          {},
+          options};
 }
 
 void Agreement::compare(const Gain& gain, const Situation& s) {

@@ -182,29 +182,26 @@ void World::look_for_near_geoms() {
 void World::step() {
   look_for_near_geoms();
   const double before_s = data_->time;
+  // MuJoCo restarts a diverged episode at time 0 and goes on as if nothing had happened.
+  const auto end = [&](const char* how, const std::string& why) {
+    diverged_ = true;
+    data_->time = before_s;
+    throw DivergedError(fmt::format("the simulation {} at {:.4f} s: {}", how, before_s, why));
+  };
   std::vector<std::string> messages;
   try {
     const WarningCollector collector(messages);
     near_geoms_->step(*data_);
   } catch (const MujocoError& error) {
-    diverged_ = true;
-    throw DivergedError(
-        fmt::format("the simulation failed at {:.4f} s: {}", before_s, error.what()));
+    end("failed", error.what());
   }
-  // MuJoCo restarts a diverged episode at time 0 and goes on as if nothing had happened.
   for (int i = 0; i < mjNWARNING; ++i) {
     const mjWarningStat& warning = data_->warning[i];
     if (warning.number == 0) continue;
-    diverged_ = true;
-    throw DivergedError(fmt::format("the simulation diverged at {:.4f} s: {}{}{}", before_s,
-                                    messages.empty() ? "MuJoCo warned" : messages.front(),
-                                    culprit(*model_, i, warning.lastinfo), advice(i)));
+    end("diverged", (messages.empty() ? "MuJoCo warned" : messages.front()) +
+                        culprit(*model_, i, warning.lastinfo) + advice(i));
   }
-  if (!(data_->time > before_s)) {
-    diverged_ = true;
-    throw DivergedError(
-        fmt::format("the simulation diverged at {:.4f} s: time stood still", before_s));
-  }
+  if (!(data_->time > before_s)) end("diverged", "time stood still");
 }
 
 std::vector<double> World::state() const {

@@ -153,7 +153,7 @@ std::function<ExitCode()> declare_report(CLI::App& app) {
       const StudyResults results = read_study_results(directory);
       write_study_page(results, evaluate(results));
     } else {
-      write_report(directory, report_sections(load_recorded(directory).task));
+      write_report(directory, recorded_sections(directory));
     }
     const std::string page = (directory / "report.html").string();
     fmt::print("{}", arguments->json ? json_text({{"report", page}}) : page + "\n");

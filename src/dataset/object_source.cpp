@@ -21,7 +21,7 @@ constexpr auto kMesh = "model.obj";
 constexpr auto kTexture = "texture.png";
 
 /// A scanned object is a category of its own; its first instance is called "<name>_1".
-std::vector<ObjectName> scanned_names(const fs::path& folder) {
+std::vector<ObjectName> names_in(const fs::path& folder) {
   std::vector<ObjectName> names;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -29,12 +29,14 @@ std::vector<ObjectName> scanned_names(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     names.push_back({name, name + "_1", name});
   }
-  if (names.empty()) {
-    throw InputError(
-        fmt::format("{}: no <name>/{{{}, {}}} in it", folder.string(), kMesh, kTexture));
-  }
   std::ranges::sort(names, {}, &ObjectName::object);
   return names;
+}
+
+std::vector<ObjectName> scanned_names(const fs::path& folder) {
+  std::vector<ObjectName> names = names_in(folder);
+  if (!names.empty()) return names;
+  throw InputError(fmt::format("{}: no <name>/{{{}, {}}} in it", folder.string(), kMesh, kTexture));
 }
 
 /// The three numbers of a line "v x y z".
@@ -102,6 +104,17 @@ std::vector<ObjectName> object_names(const DatasetOptions& options) {
   }
   names.resize(std::min(names.size(), static_cast<std::size_t>(options.objects)));
   return names;
+}
+
+std::vector<fs::path> scanned_files(const DatasetOptions& options) {
+  std::vector<fs::path> files;
+  for (const ObjectName& name : names_in(options.models)) {
+    if (files.size() >= 2 * static_cast<std::size_t>(options.objects)) break;
+    for (const char* part : {kMesh, kTexture}) {
+      files.push_back(fs::path(options.models) / name.category / part);
+    }
+  }
+  return files;
 }
 
 TurntableObject make_turntable_object(const DatasetOptions& options, const ObjectName& name) {

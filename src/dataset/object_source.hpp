@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct ObjectName {
 /// The objects of a dataset, in order.
 /// @throws InputError if `options.models` is given and holds no <name>/{model.obj, texture.png}.
 std::vector<ObjectName> object_names(const DatasetOptions& options);
+
+/// What the scanned ones among them are read from, in order; nothing where there are none.
+std::vector<std::filesystem::path> scanned_files(const DatasetOptions& options);
 
 /// Makes or reads one of them.
 /// @throws InputError if its files cannot be read or hold no vertices.

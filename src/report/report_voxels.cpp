@@ -36,7 +36,7 @@ std::string header_problem(const VoxelMap& map) {
   if ((map.cell_size_m.array() <= 0.0).any() || map.box_m.isEmpty()) {
     return "cell size or box is empty";
   }
-  const Eigen::Array3d cells = map.box_m.sizes().array() / map.cell_size_m.array();
+  const Eigen::Array3d cells = (map.box_m.sizes().array() / map.cell_size_m.array()).round();
   if ((cells > kMaxCellsPerAxis).any() || cells.max(1.0).prod() > static_cast<double>(kMaxCells)) {
     return "the grid has too many cells";
   }

@@ -98,6 +98,15 @@ void remove_former_run(const fs::path& directory) {
   }
 }
 
+/// What a run that was killed was writing; nobody else writes into a claimed folder.
+void remove_parts(const fs::path& directory) {
+  for (const std::string_view name : kRunFiles) {
+    std::error_code ignored;
+    const fs::path part = part_name(directory / name);
+    if (fs::is_regular_file(part, ignored)) fs::remove(part, ignored);
+  }
+}
+
 }  // namespace
 
 Ending ending_of(const std::function<std::string()>& run) {
@@ -125,6 +134,7 @@ EpisodeRun::EpisodeRun(const RunRequest& request)
   if (!request.options.overwrite) require_no_run(directory_);
   make_writable_directory(directory_);
   claimed_folders().claim(directory_);
+  remove_parts(directory_);
   start_s_ = wall_s();
 }
 
@@ -160,7 +170,11 @@ RunOutcome EpisodeRun::finish(const Ending& ending, const RunTotals& totals,
   write_file(directory_ / "manifest.json", manifest_json(request_, summary));
   write_file(directory_ / "metrics.json", outcome.metrics);
   if (write_more) write_more();
-  recorder.finish_video();  // which fails easily, and costs nothing else then
+  try {
+    recorder.finish_video();
+  } catch (const OutputError&) {  // which comes easily, and costs nothing else
+    outcome.video_error = std::current_exception();
+  }
   return outcome;
 }
 

@@ -3,8 +3,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <exception>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +34,9 @@ struct RunOptions {
 
 struct RunOutcome {
   std::filesystem::path directory;
-  ExitCode code = ExitCode::done;  ///< failed, diverged and interrupted runs have results too
-  std::string metrics;             ///< the JSON text
+  ExitCode code = ExitCode::done;       ///< failed, diverged and interrupted runs have results too
+  std::string metrics;                  ///< the JSON text
+  std::exception_ptr video_error = {};  ///< why there is no video; nothing else is missing
 };
 
 /// A file that an episode reads beside its scene and its robot.
@@ -42,13 +45,19 @@ struct InputFile {
   std::filesystem::path path;
 };
 
+/// Of the files that an episode is made of, as they are when it begins.
+struct InputHashes {
+  std::string scene;
+  std::map<std::string, std::string> assets;  ///< see asset_hashes()
+};
+
 /// An episode that is to run.
 struct RunRequest {
   const EpisodeSetup& setup;
   std::string task;    ///< as metrics.json calls it
   std::string method;  ///< as metrics.json calls it
   std::string config;  ///< the whole configuration, YAML
-  std::vector<InputFile> inputs;
+  InputHashes inputs;  ///< see input_hashes()
   RunOptions options;
 };
 

@@ -50,6 +50,7 @@ extern "C" void remember_signal(int signal) {
 void catch_interrupts() {
   std::signal(SIGINT, remember_signal);
   std::signal(SIGTERM, remember_signal);
+  std::signal(SIGPIPE, SIG_IGN);  // nobody reads the progress any more: that ends no run
 }
 
 Interrupted::Interrupted(int signal)

@@ -88,6 +88,10 @@ std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
   return hashes;
 }
 
+InputHashes input_hashes(const EpisodeSetup& setup, const std::vector<InputFile>& inputs) {
+  return {hash_text(hash_file(setup.scene)), asset_hashes(setup, inputs)};
+}
+
 std::string manifest_json(const RunRequest& request, const RunSummary& summary) {
   const EpisodeSetup& setup = request.setup;
   Json json = {
@@ -104,8 +108,8 @@ std::string manifest_json(const RunRequest& request, const RunSummary& summary) 
       {"seed", setup.options.seed},
       {"status", status_name(summary.status)},
       {"config_hash", hash_text(hash_bytes(request.config))},
-      {"scene_hash", hash_text(hash_file(setup.scene))},
-      {"assets", asset_hashes(setup, request.inputs)},
+      {"scene_hash", request.inputs.scene},
+      {"assets", request.inputs.assets},
       {"wall_time_s", summary.wall_time_s},
       {"simulated_time_s", summary.simulated_time_s},
   };

@@ -22,6 +22,9 @@ std::string cpu_name();
 std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
                                                 const std::vector<InputFile>& inputs);
 
+/// Of an episode that is about to begin. @throws InputError if a file cannot be read
+InputHashes input_hashes(const EpisodeSetup& setup, const std::vector<InputFile>& inputs);
+
 std::string manifest_json(const RunRequest& request, const RunSummary& summary);
 
 }  // namespace vantage

@@ -39,8 +39,9 @@ RecordTexts run_records() {
        "cells for the report; little-endian: \"VTGVOX01\", cell size (3 x f64), box minimum and "
        "maximum (6 x f64), count (u64), then per voxel, 16 bytes, the centre of its cell x, y, z m "
        "in the world frame (f32), step (u16), kind (u8: 0 occupied, 1 unobserved at the end), 0 "
-       "(u8). Steps count from 0: one less than the scan or waypoint of steps.csv; of kind 1 they "
-       "mean nothing. Flights list no unobserved cells; what is not listed is free"},
+       "(u8). Steps count from 0: one less than the scan, view or waypoint of steps.csv; of kind 1 "
+       "they mean nothing. What is not listed is free; but flights along a path list no unobserved "
+       "cells: there it may be unobserved too"},
       {kRunFolder, "scene.bin",
        "flights: triangles of the scene for the report; its format is in "
        "src/report/drawn_scene.hpp"},

@@ -216,6 +216,14 @@ ReportSections report_sections(const Task& task) {
   return std::visit([](const auto& t) { return t.report(); }, task);
 }
 
+ReportSections recorded_sections(const std::filesystem::path& run_dir) {
+  try {
+    return report_sections(named_task(read_episode_yaml(run_dir / "config.yaml")));
+  } catch (const ConfigError& error) {
+    throw InputError(error.what());
+  }
+}
+
 Measures measures(const Task& task) {
   return std::visit([](const auto& t) { return t.measures(); }, task);
 }

@@ -56,6 +56,9 @@ TaskExtent extent(const ResolvedEpisode& resolved);
 /// @throws InputError if the scene publishes no path where the task needs one.
 WindowContent window(const ResolvedEpisode& resolved);
 ReportSections report_sections(const Task& task);
+/// Of the task of a run, wherever its scene is now and whatever version recorded it.
+/// @throws InputError
+ReportSections recorded_sections(const std::filesystem::path& run_dir);
 Measures measures(const Task& task);
 
 }  // namespace vantage

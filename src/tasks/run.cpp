@@ -10,6 +10,7 @@
 #include "vantage/core/names.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/report/report.hpp"
+#include "vantage/runtime/manifest.hpp"
 #include "vantage/tasks/episode_planner.hpp"
 
 namespace vantage {
@@ -47,7 +48,7 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& given) {
             .task = std::string(task.metrics_task()),
             .method = options.outside ? options.outside->name : task.method_name(),
             .config = episode_yaml(resolved),
-            .inputs = task.inputs(),
+            .inputs = input_hashes(resolved.setup, task.inputs()),
             .options = options};
         return task.run(request);
       },
@@ -55,6 +56,7 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& given) {
   if (!options.lean) write_report(outcome.directory, report_sections(resolved.task));
   log_to_file({});
   release_run_directory(outcome.directory);
+  if (outcome.video_error) std::rethrow_exception(outcome.video_error);
   return outcome;
 }
 

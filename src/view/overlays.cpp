@@ -118,7 +118,7 @@ void timeline(cv::Mat& image, double share) {
       cv::Rect(0, image.rows - height, image.cols, height) & cv::Rect({0, 0}, image.size());
   darken(image, area);
   const int done = static_cast<int>(std::clamp(share, 0.0, 1.0) * image.cols);
-  image(cv::Rect(0, area.y + height / 4, done, height - height / 2)).setTo(kAccent);
+  image(cv::Rect(0, area.y + height / 4, done, height - height / 2) & area).setTo(kAccent);
 }
 
 constexpr std::array<std::pair<const char*, const char*>, 14> kHelp{

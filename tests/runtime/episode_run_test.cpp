@@ -207,6 +207,14 @@ TEST_F(EpisodeRuns, ReplaceAFormerRunAndNothingElseAsTheyBegin) {
   EXPECT_EQ(run.directory(), folder_.path());
 }
 
+TEST_F(EpisodeRuns, RemoveWhatAKilledOneWasWriting) {
+  for (const char* name : {"states.part.bin", "video.part.mp4", "notes.part.txt"}) make(name);
+  const RunRequest asked = request(false);
+  const EpisodeRun run(asked);
+  EXPECT_FALSE(is_there("states.part.bin") || is_there("video.part.mp4"));
+  EXPECT_TRUE(is_there("notes.part.txt"));
+}
+
 TEST_F(EpisodeRuns, HaveTheirFolderAloneUntilItIsReleased) {
   const RunRequest asked = request(false);
   EXPECT_TRUE(is_open_to_others());
@@ -299,6 +307,20 @@ struct ToldWorld {
       test::scene_mjcf("<body pos='0 0 1'><freejoint/><geom size='.1'/></body>")};
   World world{scene.alone()};
 };
+
+/// Who works on a scene while an episode runs changes another one.
+TEST_F(EpisodeRuns, TellTheirFilesAsTheyWereWhenTheyWereAsked) {
+  ToldWorld told;
+  RunRequest asked = request(false);
+  asked.inputs = {"of the scene", {{"scene.xml", "of the scene"}}};
+  EpisodeRun run(asked);
+  run.begin();
+  ToldRecorder recorder(run, told.world);
+  run.finish({.reason = "nothing to do"}, {}, recorder, [](nlohmann::ordered_json&) {});
+  const auto manifest = nlohmann::json::parse(read_file(folder_ / "manifest.json"));
+  EXPECT_EQ(manifest.at("scene_hash"), "of the scene");
+  EXPECT_EQ(manifest.at("assets").at("scene.xml"), "of the scene");
+}
 
 TEST_F(EpisodeRuns, WriteWhatEveryRunFolderHas) {
   ToldWorld told;

@@ -41,6 +41,15 @@ TEST(Interrupt, ASecondOneEndsTheProcess) {
   }
 }
 
+TEST(Interrupt, AReaderThatGoesAwayEndsNothing) {
+  const auto unread = [] {
+    catch_interrupts();
+    std::raise(SIGPIPE);
+    std::_Exit(7);
+  };
+  EXPECT_EXIT(unread(), testing::ExitedWithCode(7), "");
+}
+
 TEST(Interrupt, QuietIsQuiet) {
   const auto quiet = [] {
     set_verbosity(Verbosity::quiet);

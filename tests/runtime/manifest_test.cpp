@@ -67,7 +67,8 @@ TEST_F(AssetHashes, AManifestSaysWhatRanOnWhat) {
   setup_.robot.mjcf = file("robot/robot.xml", "<mujoco/>");
   setup_.options.threads = 3;
   setup_.options.seed = 9;
-  RunRequest request{setup_, "exploration", "greedy", "a: 1\n", {{"model", setup_.scene}}, {}};
+  const std::vector<InputFile> model{{"model", setup_.scene}};
+  RunRequest request{setup_, "exploration", "greedy", "a: 1\n", input_hashes(setup_, model), {}};
   request.options.command = {"vantage", "run"};
   RunSummary summary;
   summary.status = EpisodeStatus::diverged;
@@ -91,7 +92,7 @@ TEST_F(AssetHashes, AManifestSaysWhatRanOnWhat) {
   EXPECT_EQ(manifest["status"], "diverged");
   EXPECT_EQ(manifest["config_hash"], hash_of("a: 1\n"));
   EXPECT_EQ(manifest["scene_hash"], hash_of(kScene));
-  EXPECT_EQ(manifest["assets"], nlohmann::json(asset_hashes(setup_, request.inputs)));
+  EXPECT_EQ(manifest["assets"], nlohmann::json(asset_hashes(setup_, model)));
   EXPECT_EQ(manifest["assets"]["model"], hash_of(kScene));
   EXPECT_EQ(manifest["wall_time_s"], 2.5);
   EXPECT_EQ(manifest["simulated_time_s"], 5.5);

@@ -220,7 +220,8 @@ TEST_F(Run, AVideoThatFailsCostsNothingElse) {
     fs::create_directories(options.directory / "video.mp4");  // in the video's way
   };
   EXPECT_THROW(run(short_episode({"scans=1", "recording.height_px=240"}), options), OutputError);
-  for (const char* name : {"metrics.json", "map.bt", "map.ot", "cloud.ply", "voxels.bin"}) {
+  for (const char* name :
+       {"metrics.json", "map.bt", "map.ot", "cloud.ply", "voxels.bin", "report.html"}) {
     EXPECT_TRUE(fs::exists(options.directory / name)) << name;
   }
 }

@@ -337,6 +337,18 @@ TEST(Tasks, AnEmptyFileIsNoEpisode) {
   EXPECT_EQ(complaint([&] { load_episode(folder / "e.yaml", {}); }), "");
 }
 
+/// A page is made of what is in the folder: the scene may be elsewhere, the keys those of a former
+/// version.
+TEST(Tasks, APageIsMadeOfARunWhoseSceneIsGone) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "config.yaml", "task: trajectory\nscene: gone.xml\nsetting: 3\n");
+  EXPECT_EQ(recorded_sections(folder.path()).figures, kFlightFigures);
+  write_file(folder / "config.yaml", "task: juggling\n");
+  EXPECT_THROW(recorded_sections(folder.path()), InputError);
+  std::filesystem::remove(folder / "config.yaml");
+  EXPECT_THROW(recorded_sections(folder.path()), InputError);
+}
+
 TEST(Tasks, FilesThatCannotBeUsedAreNamedByKeyAndPlace) {
   const auto said = [](const std::string& yaml) -> std::string {
     try {

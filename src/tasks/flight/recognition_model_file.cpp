@@ -7,6 +7,7 @@
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/dataset/object_source.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
 
 namespace vantage {
@@ -20,7 +21,19 @@ std::string found_model_name(const std::string& model, const std::filesystem::pa
   }
 }
 
-InputFile model_input(const std::string& model) { return {"model", data_root() / model}; }
+std::vector<InputFile> flight_inputs(const std::string& model,
+                                     const ObjectDatabaseOptions& database) {
+  std::vector<InputFile> inputs{{"model", data_root() / model}};
+  if (database.models.empty()) return inputs;
+  DatasetOptions scanned;
+  scanned.objects = database.objects;
+  scanned.models = (data_root() / database.models).string();
+  for (const std::filesystem::path& file : scanned_files(scanned)) {
+    const auto name = file.lexically_relative(scanned.models);
+    inputs.push_back({"database.models/" + name.generic_string(), file});
+  }
+  return inputs;
+}
 
 std::filesystem::path find_recognition_model(const std::string& model) {
   try {

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "vantage/recognition/recogniser.hpp"
 #include "vantage/runtime/episode_run.hpp"
+#include "vantage/tasks/flight/object_database_options.hpp"
 
 namespace vantage {
 
@@ -13,8 +15,10 @@ namespace vantage {
 /// name it has: it is missed where it is needed, and to replay an episode it is not.
 std::string found_model_name(const std::string& model, const std::filesystem::path& base);
 
-/// The model as an input of an episode.
-InputFile model_input(const std::string& model);
+/// What an episode reads beside its scene: the model, and the files of the scanned objects that
+/// there may be.
+std::vector<InputFile> flight_inputs(const std::string& model,
+                                     const ObjectDatabaseOptions& database);
 
 /// @throws InputError if there is none, with the command that makes one.
 std::filesystem::path find_recognition_model(const std::string& model);

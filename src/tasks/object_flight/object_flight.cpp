@@ -23,7 +23,7 @@ void ObjectFlight::find_files(const std::filesystem::path& base) {
   database.models = found_model_name(database.models, base);
 }
 
-std::vector<InputFile> ObjectFlight::inputs() const { return {model_input(model)}; }
+std::vector<InputFile> ObjectFlight::inputs() const { return flight_inputs(model, database); }
 
 TaskExtent ObjectFlight::extent(const EpisodeSetup&) const {
   return {"max_views", "views at most", static_cast<std::size_t>(decision.max_views)};

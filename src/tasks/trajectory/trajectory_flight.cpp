@@ -42,7 +42,7 @@ void TrajectoryFlight::find_files(const std::filesystem::path& base) {
   database.models = found_model_name(database.models, base);
 }
 
-std::vector<InputFile> TrajectoryFlight::inputs() const { return {model_input(model)}; }
+std::vector<InputFile> TrajectoryFlight::inputs() const { return flight_inputs(model, database); }
 
 ModelSource TrajectoryFlight::model_source(const EpisodeSetup& setup) const {
   return {setup.scene, setup.robot.mjcf, object_files(database, draw_flight_objects(*this, setup))};

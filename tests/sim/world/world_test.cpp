@@ -70,6 +70,7 @@ TEST(World, DivergenceIsAnErrorNotARestart) {
   EXPECT_THAT(message_of<DivergedError>([&] { world.advance_tick(); }),
               AllOf(HasSubstr("diverged at 0.1000 s"), HasSubstr("QACC"),
                     HasSubstr("joint 'rail' of body 'cart'")));
+  EXPECT_NEAR(world.time_s(), 0.1, 1e-12) << "when it diverged";
 
   world.set_state(before);
   EXPECT_NO_THROW(world.advance_tick());

@@ -127,14 +127,36 @@ TEST(RecognitionModelFile, KeepsItsNameWhereItIsNotFound) {
   const fs::path found = found_model_name("mine.model", folder.path());
   EXPECT_TRUE(found.is_absolute());
   EXPECT_EQ(found.filename(), "mine.model");
-  EXPECT_EQ(model_input("no/such.model").key, "model");
-  EXPECT_EQ(model_input("no/such.model").path, data_root() / "no/such.model");
+  const std::vector<InputFile> inputs = flight_inputs("no/such.model", {});
+  ASSERT_EQ(inputs.size(), 1U);
+  EXPECT_EQ(inputs[0].key, "model");
+  EXPECT_EQ(inputs[0].path, data_root() / "no/such.model");
   try {
     find_recognition_model("no/such.model");
     FAIL() << "there is none";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("vantage train --recipe FILE.yaml --out no/such.model"));
   }
+}
+
+/// They are compiled into the world: another mesh is another episode.
+TEST(FlightInputs, ScannedObjectsAreAmongThem) {
+  const support::TemporaryDirectory folder;
+  for (const char* name : {"cup", "box", "fork", "no_object"}) {
+    fs::create_directory(folder / name);
+  }
+  for (const char* name : {"cup", "box", "fork"}) {
+    write_file(folder / name / "model.obj", "v 0 0 0");
+    write_file(folder / name / "texture.png", "");
+  }
+  write_file(folder / "no_object" / "model.obj", "");
+  const ObjectDatabaseOptions two{.seed = 1, .objects = 2, .models = folder.path().string()};
+  std::vector<std::string> keys;
+  for (const InputFile& input : flight_inputs("a.model", two)) keys.push_back(input.key);
+  EXPECT_THAT(keys, testing::ElementsAre(
+                        "model", "database.models/box/model.obj", "database.models/box/texture.png",
+                        "database.models/cup/model.obj", "database.models/cup/texture.png"));
+  EXPECT_EQ(flight_inputs("a.model", {.seed = 1, .objects = 2, .models = "no/such"}).size(), 1U);
 }
 
 TEST(RecognitionModelFile, MustKnowWhatStandsThereOrCallItUnknown) {

@@ -292,8 +292,8 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
   RunOptions options;
   options.directory = *folder_ / "goes_on";
   options.lean = true;
-  const RunRequest request{episode.setup,         "trajectory",  task.method_name(),
-                           episode_yaml(episode), task.inputs(), options};
+  const RunRequest request{episode.setup,         "trajectory", task.method_name(),
+                           episode_yaml(episode), {},           options};
   const EpisodeRun run(request);
   TrajectoryRecorder recorder(run, robot.quadrotor(), task.camera);
   const TrajectoryEvaluator evaluator(robot);
