@@ -27,7 +27,7 @@ std::optional<std::size_t> first_feature(const std::string& name,
 double score_of(const FeatureChoice& choice, const ObservationModel& model, double gain_bits) {
   if (!choice.per_cost) return gain_bits;
   expects(model.cost_s > 0.0, "a gain per cost needs the cost of every feature");
-  return gain_bits / model.cost_s;
+  return gain_per_cost(gain_bits, model.cost_s);
 }
 
 std::vector<FeatureScore> scores_of(const FeatureChoice& choice, const FeatureSituation& situation,

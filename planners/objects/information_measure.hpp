@@ -114,6 +114,12 @@ using InformationMeasure =
 template <>
 inline constexpr std::string_view strategy_family<InformationMeasure> = "information measure";
 
+/// Gain per cost; a gain below 0, as some measures have it, is the worse the more it costs.
+/// @pre cost > 0
+inline double gain_per_cost(double gain_bits, double cost) {
+  return gain_bits < 0.0 ? gain_bits * cost : gain_bits / cost;
+}
+
 inline InformationEstimate expected_information(const InformationMeasure& measure,
                                                 const InformationQuery& query, Rng& rng) {
   return std::visit([&](const auto& m) { return m(query, rng); }, measure);

@@ -70,9 +70,9 @@ scores_by(const Measure& measure, const ObjectViewOptions& options,
     if (options.about_object) query.group = objects_of(situation.database, query.likely.states);
     Rng draws = common;
     InformationEstimate gain = measure(query, draws);
-    if (options.by_visibility) gain.bits *= situation.actions[i].visible;
+    if (options.by_visibility && gain.bits > 0.0) gain.bits *= situation.actions[i].visible;
     const double cost = cost_of(options, situation.actions[i]);
-    scores.push_back({.gain = gain, .cost = cost, .score = gain.bits / cost});
+    scores.push_back({.gain = gain, .cost = cost, .score = gain_per_cost(gain.bits, cost)});
   }
   return scores;
 }

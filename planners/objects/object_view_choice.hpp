@@ -32,7 +32,7 @@ struct StarView {
           "Takes the view most nearly opposite to the present one; as views are not taken twice, "
           "the way is a star.",
       .formula = "argmax of the turn about the object, at most half a turn",
-      .source = "Potthast2016, 4.5.5"};
+      .source = "Potthast2016, 4.5.6"};
   void fields(auto&&) {}
 };
 

@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// Views from a circle round the region of interest.  [Potthast2016, 3.3.3]
+/// Views from a circle round the region of interest.  [Potthast2016, 3.3.1]
 struct RingOfViews {
   int positions = 10;
   double radius_m = 1.2;

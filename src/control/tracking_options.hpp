@@ -26,19 +26,22 @@ struct TrajectoryTrackingOptions {
     f("gusts", gusts, "forces that push the vehicle for a while; empty: none");
     f("goal_tolerance_m", goal_tolerance_m,
       "distance of the estimated position from the goal within which the vehicle has arrived; "
-      "higher arrives sooner and less exactly",
+      "higher arrives sooner and less exactly; without effect in `trajectory`, which stops nowhere",
       Range{0.001, 1.0});
     f("goal_tolerance_rad", goal_tolerance_rad,
-      "heading error within which the vehicle has arrived; higher arrives sooner and less exactly",
+      "heading error within which the vehicle has arrived; higher arrives sooner and less exactly; "
+      "without effect in `trajectory`",
       Range{0.001, 1.0});
-    f("rest_speed_m_s", rest_speed_m_s, "speed below which the vehicle is at rest",
+    f("rest_speed_m_s", rest_speed_m_s,
+      "speed below which the vehicle is at rest; without effect in `trajectory`",
       Range{0.001, 1.0});
     f("settle_time_s", settle_time_s,
       "time within tolerance and at rest after which the vehicle has arrived; higher is steadier "
-      "and slower",
+      "and slower; without effect in `trajectory`",
       between(0.0, 10.0));
     f("timeout_s", timeout_s,
-      "time after the planned end of a trajectory until it is given up; higher is more patient",
+      "time after the planned end of a trajectory until it is given up; higher is more patient; "
+      "without effect in `trajectory`",
       above(0.0));
   }
 };

@@ -16,7 +16,9 @@ double minus_p_log2_p(double p) { return p > 0.0 ? -p * std::log2(p) : 0.0; }
 /// p log2 (p / q), the summand of every divergence.
 double relative_term(double p, double q) {
   if (p == 0.0) return 0.0;
-  return q > 0.0 ? p * std::log2(p / q) : std::numeric_limits<double>::infinity();
+  if (q == 0.0) return std::numeric_limits<double>::infinity();
+  const double ratio = p / q;  // beyond what numbers hold where q is next to nothing
+  return p * (std::isfinite(ratio) ? std::log2(ratio) : std::log2(p) - std::log2(q));
 }
 
 void require_sum_one(double sum, std::string_view function, std::string_view argument) {

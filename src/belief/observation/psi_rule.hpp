@@ -72,7 +72,7 @@ struct DissertationPsi {
   static constexpr std::string_view name = "dissertation";
   static constexpr StrategyText text{
       .summary = "The published factors, by the name of the feature.",
-      .source = "Potthast2016, 4.5.2"};
+      .source = "Potthast2016, 4.5.1"};
   double colour = 1.0;
   double bounding_box = 0.02;
   double sift = 0.2;

@@ -13,14 +13,14 @@
 
 namespace vantage {
 
-/// The principal axes are those of the points seen from above. [Potthast2016, 4.5.2]
+/// The principal axes are those of the points seen from above. [Potthast2016, 4.5.3]
 struct BoundingBox {
   static constexpr std::string_view name = "bounding_box";
   static constexpr StrategyText text{
       .summary =
           "Extents of the object: height along gravity and the two horizontal principal extents.",
       .formula = "(height, greater, smaller horizontal extent) in m, each between two quantiles",
-      .source = "Potthast2016, 4.5.2"};
+      .source = "Potthast2016, 4.5.3"};
   double low_quantile = 0.01;
   double high_quantile = 0.99;
   int min_pixels = 16;

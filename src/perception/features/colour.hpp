@@ -13,7 +13,7 @@
 
 namespace vantage {
 
-/// Bin (h * 3 + s) * 3 + v. [Potthast2016, 4.5.2]
+/// Bin (h * 3 + s) * 3 + v. [Potthast2016, 4.5.3]
 struct Colour {
   static constexpr std::string_view name = "colour";
   static constexpr StrategyText text{
@@ -21,7 +21,7 @@ struct Colour {
           "Colour histogram of the object: 144 bins of hue, saturation and value. Cheap, and "
           "strong where light is steady.",
       .formula = "sqrt of the shares of 16 x 3 x 3 bins of hue, saturation, value",
-      .source = "Potthast2016, 4.5.2"};
+      .source = "Potthast2016, 4.5.3"};
   int min_pixels = 16;
   void fields(auto&& f) {
     f("min_pixels", min_pixels,

@@ -19,7 +19,7 @@ class TrainedSift;
 
 /// RootSIFT [Lowe2004, ArandjelovicZisserman2012] upright on a grid, quantised to words, counted
 /// over the object's box and its four quarters (a spatial pyramid [LazebnikEtAl2006]),
-/// L1-normalised, square-rooted. [Potthast2016, 4.5.2]
+/// L1-normalised, square-rooted. [Potthast2016, 4.5.3]
 struct Sift {
   static constexpr std::string_view name = "sift";
   static constexpr StrategyText text{
@@ -27,7 +27,7 @@ struct Sift {
           "Bag of dense SIFT words over the object's box and its four quarters: texture, and "
           "roughly where it is.",
       .formula = "sqrt of the shares of words in the box and its quarters, 5 x words",
-      .source = "Potthast2016, 4.5.2; Lowe2004; ArandjelovicZisserman2012; LazebnikEtAl2006"};
+      .source = "Potthast2016, 4.5.3; Lowe2004; ArandjelovicZisserman2012; LazebnikEtAl2006"};
   int step_px = 8;
   double size_px = 4.0;
   int min_side_px = 96;

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,19 +51,22 @@ std::map<std::string, std::vector<std::size_t>> recordings_of(std::span<const Vi
   return recordings;
 }
 
-/// The views of a recording that the others lie round in elevation.
+/// The views of a recording that the others lie round in elevation, of objects that they show too.
 std::vector<std::size_t> as_high_as_others(std::span<const ViewFeatures> views,
                                            std::span<const std::size_t> recording) {
   double lowest_rad = std::numeric_limits<double>::infinity();
   double highest_rad = -std::numeric_limits<double>::infinity();
+  std::set<std::string> known;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (std::ranges::binary_search(recording, i)) continue;
     lowest_rad = std::min(lowest_rad, views[i].elevation_rad - kAsHigh_rad);
     highest_rad = std::max(highest_rad, views[i].elevation_rad + kAsHigh_rad);
+    known.insert(views[i].name.object);
   }
   std::vector<std::size_t> as_high;
   std::ranges::copy_if(recording, std::back_inserter(as_high), [&](std::size_t i) {
-    return views[i].elevation_rad >= lowest_rad && views[i].elevation_rad <= highest_rad;
+    const double at_rad = views[i].elevation_rad;
+    return at_rad >= lowest_rad && at_rad <= highest_rad && known.contains(views[i].name.object);
   });
   return as_high;
 }

@@ -135,6 +135,13 @@ std::vector<Split> splits_of(std::span<const ViewFeatures> views, std::span<cons
   return splits;
 }
 
+/// Leaves out views of objects of which the fold trains on none: no model could know them.
+void drop_unknown(Split& split, std::span<const int> shown, int bins) {
+  std::set<int> known;
+  for (const std::size_t i : split.trained_on) known.insert(shown[i] / bins);
+  std::erase_if(split.held_out, [&](std::size_t i) { return !known.contains(shown[i] / bins); });
+}
+
 void limit(Split& split, Eigen::Index most, std::uint64_t seed) {
   Rng rng = Rng::stream(seed, "views held out");
   std::vector<std::size_t> kept;
@@ -224,6 +231,7 @@ Calibration hold_out(std::span<const ViewFeatures> views, std::span<const int> s
   calibration.held_out.bins = model.states.bins;
   calibration.held_out.log_density.resize(model.features.size());
   for (Split& split : splits) {
+    if (options.only_seen) drop_unknown(split, shown, model.states.bins);
     limit(split, kMaxViews / static_cast<Eigen::Index>(splits.size()), options.seed);
     calibration.folds.push_back(
         {.models = {}, .first = std::ssize(calibration.view), .count = std::ssize(split.held_out)});

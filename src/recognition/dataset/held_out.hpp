@@ -69,7 +69,9 @@ struct HoldOutOptions {
   HeldOut held_out;  ///< not `auto`
   VarianceEstimate variance;
   std::uint64_t seed = 1;
-  bool only_seen = false;  ///< states without a view are impossible, as unseen_states() has it
+  /// States without a view are impossible, as unseen_states() has it, and objects without one are
+  /// not asked for.
+  bool only_seen = false;
 };
 
 /// Log density of a state without a view, with HoldOutOptions::only_seen.

@@ -1,5 +1,5 @@
 /// How well objects of a dataset are recognised: the same starts for every method.
-/// [Potthast2016, 4.5.4-4.5.6]
+/// [Potthast2016, 4.5.5-4.5.6]
 #pragma once
 
 #include <Eigen/Core>

@@ -365,5 +365,11 @@ TEST(EveryInformationMeasure, OfAViewThatCountsForLessIsAsOfASmallerPsi) {
   }
 }
 
+TEST(GainPerCost, WhatTellsLessThanNothingIsTheWorseTheMoreItCosts) {
+  EXPECT_EQ(gain_per_cost(6.0, 4.0), 1.5);
+  EXPECT_EQ(gain_per_cost(-6.0, 4.0), -24.0);
+  EXPECT_EQ(gain_per_cost(0.0, 4.0), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage
