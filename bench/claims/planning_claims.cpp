@@ -47,7 +47,7 @@ Finding against_greedy(const StudyTables& study, const std::string& table, doubl
         const Race against = bench::race(study, table, kPanel, kTour, study.reference());
         const std::string why = against.why_lost(limit);
         return {against.text() + "<br>" + beside(study, table),
-                against.is_won_by(limit) && against.pairs && against.pairs->p_value < kSignificant,
+                against.is_won_by(limit) && against.is_significant(),
                 why.empty() ? "see what the others have of it, `oracle_tour` among them" : why};
       });
 }

@@ -26,6 +26,8 @@ bool Race::is_won_by(double limit) const {
   return pairs && pairs->ratio && *pairs->ratio <= limit;
 }
 
+bool Race::is_significant() const { return (pairs ? pairs->p_value : arrival_p) < kSignificant; }
+
 bool Race::is_ahead() const {
   const bool sooner =
       pairs && pairs->ratio && pairs->ratio_interval->high < 1.0 && pairs->p_value < kSignificant;

@@ -18,6 +18,8 @@ struct Race {
 
   /// It gets there no less often, and in at most `limit` times what the other takes.
   [[nodiscard]] bool is_won_by(double limit) const;
+  /// p below kSignificant: that of the pairs, or of the arrivals where only one of them arrives.
+  [[nodiscard]] bool is_significant() const;
   /// It gets there no less often, and either sooner, beyond the interval and with p below
   /// kSignificant, or more often with such a p.
   [[nodiscard]] bool is_ahead() const;

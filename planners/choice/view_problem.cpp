@@ -91,13 +91,13 @@ PlanningProblem with_ways(const ViewPlanningInput& input, const ViewPlanningOpti
   return problem;
 }
 
-/// Takes whole scans for scans of the images that are worth their time, where it is known in which
-/// direction views show what.
+/// Takes whole scans for scans of the images that are worth their time.
+/// @param blocks of space, which the problem's are
 /// @return those images; none where all scans stay whole
 ImagesOfViews take_partial_scans(const ViewPlanningInput& input, const CellBlocks& blocks,
                                  PlanningProblem& problem) {
   const PartialScans* scans = input.partial_scans;
-  if (scans == nullptr || problem.cells.size() != blocks.size()) return {};
+  if (scans == nullptr) return {};
   const GridFrame& frame = input.map.grid.frame;
   ImagesOfViews taken = worthwhile_images(*scans, frame, blocks, input.candidates, problem);
   problem.scan_share = shares_of_scan(scans->images, taken);
@@ -161,7 +161,8 @@ PlanningProblem make_view_problem(const ViewPlanningInput& input,
   const double unit = attenuation ? attenuation->utility : unit_of_a_cell(input.gain);
   PlanningProblem problem = with_ways(input, options, shown_by(input, options, attenuation), unit);
   const CellBlocks planned_blocks = blocks_of(input.map.grid.frame, options.block_m);
-  const ImagesOfViews taken = take_partial_scans(input, planned_blocks, problem);
+  ImagesOfViews taken;
+  if (attenuation) taken = take_partial_scans(input, planned_blocks, problem);
   if (input.map.transmission == nullptr) return problem;
   // Most choices draw nothing.
   auto belief = std::make_shared<std::optional<const DrawableMap>>();

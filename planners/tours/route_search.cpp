@@ -1,9 +1,9 @@
 #include "vantage/planners/tours/route_search.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "vantage/core/cancellation/stop_poll.hpp"
+#include "vantage/planners/tours/order_moves.hpp"
 
 namespace vantage {
 namespace {
@@ -85,20 +85,11 @@ class RouteSearch {
       for (std::size_t from = 0; from + length <= movable(); ++from) {
         poll_stop();
         for (std::size_t to = 0; to + length <= movable(); ++to) {
-          if (to != from && improve(moved(from, length, to))) any = true;
+          if (to != from && improve(with_moved(order_, from, length, to))) any = true;
         }
       }
     }
     return any;
-  }
-
-  [[nodiscard]] Order moved(std::size_t from, std::size_t length, std::size_t to) const {
-    Order order = order_;
-    const auto first = order.begin() + static_cast<std::ptrdiff_t>(from);
-    const Order segment(first, first + static_cast<std::ptrdiff_t>(length));
-    order.erase(first, first + static_cast<std::ptrdiff_t>(length));
-    order.insert(order.begin() + static_cast<std::ptrdiff_t>(to), segment.begin(), segment.end());
-    return order;
   }
 
   /// 2-opt: a part is gone through the other way round.
@@ -107,10 +98,7 @@ class RouteSearch {
     for (std::size_t begin = 0; begin < movable(); ++begin) {
       poll_stop();
       for (std::size_t end = begin + 2; end <= movable(); ++end) {
-        Order order = order_;
-        std::reverse(order.begin() + static_cast<std::ptrdiff_t>(begin),
-                     order.begin() + static_cast<std::ptrdiff_t>(end));
-        if (improve(order)) any = true;
+        if (improve(with_reversed(order_, begin, end))) any = true;
       }
     }
     return any;

@@ -8,6 +8,7 @@
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/planners/tours/joint_gain.hpp"
+#include "vantage/planners/tours/order_moves.hpp"
 
 namespace vantage {
 namespace {
@@ -181,17 +182,8 @@ class TourSearch {
     for (std::size_t length = 1; length <= kLongestSegment; ++length) {
       for (std::size_t from = fixed_; from + length <= order.size(); ++from) {
         poll_stop();
-        const auto first = order.begin() + static_cast<std::ptrdiff_t>(from);
-        const Order segment(first, first + static_cast<std::ptrdiff_t>(length));
-        Order rest = order;
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(from),
-                   rest.begin() + static_cast<std::ptrdiff_t>(from + length));
-        for (std::size_t to = fixed_; to <= rest.size(); ++to) {
-          if (to == from) continue;
-          Order moved = rest;
-          moved.insert(moved.begin() + static_cast<std::ptrdiff_t>(to), segment.begin(),
-                       segment.end());
-          offer(std::move(moved));
+        for (std::size_t to = fixed_; to + length <= order.size(); ++to) {
+          if (to != from) offer(with_moved(order, from, length, to));
         }
       }
     }
@@ -202,10 +194,7 @@ class TourSearch {
     for (std::size_t begin = fixed_; begin < order.size(); ++begin) {
       poll_stop();
       for (std::size_t end = begin + 2; end <= order.size(); ++end) {
-        Order reversed = order;
-        std::reverse(reversed.begin() + static_cast<std::ptrdiff_t>(begin),
-                     reversed.begin() + static_cast<std::ptrdiff_t>(end));
-        offer(std::move(reversed));
+        offer(with_reversed(order, begin, end));
       }
     }
   }

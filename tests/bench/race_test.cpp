@@ -64,6 +64,7 @@ TEST(Race, IsWonByWhoArrivesAlone) {
       race_of(study_of([](const std::string& name) { return is_by(name, "greedy") ? "" : "100"; }));
   EXPECT_FALSE(got.pairs.has_value());
   EXPECT_TRUE(got.is_won_by(0.1));
+  EXPECT_TRUE(got.is_significant()) << "in ten tables of ten";
 }
 
 TEST(Race, IsNotWonWhereTheTwoNeverMeet) {
@@ -86,6 +87,7 @@ TEST(Race, IsAheadBeyondTheInterval) {
   };
   const Race ahead = tour_takes([](const auto&) { return 90.0; });
   EXPECT_TRUE(ahead.is_ahead());
+  EXPECT_TRUE(ahead.is_significant());
   EXPECT_EQ(ahead.why_not_ahead(), "");
   EXPECT_EQ(ahead.why_lost(0.9), "");
   const Race level = tour_takes(
@@ -112,6 +114,7 @@ TEST(Race, IsNotAheadByTwoPairsButByArrivingFarMoreOften) {
   EXPECT_TRUE(three.is_won_by(0.5));
   EXPECT_DOUBLE_EQ(three.arrival_p, 1.0) << "one table of ten, either way";
   EXPECT_FALSE(three.is_ahead()) << "two pairs are no lead";
+  EXPECT_FALSE(three.is_significant());
   EXPECT_EQ(three.why_not_ahead(), "p 0.5: of 2 pairs it cannot be below 0.5");
   const Race all = arrives_at({"report_"});
   EXPECT_DOUBLE_EQ(all.arrival_p, 2.0 / 256.0) << "of eight tables that differ";

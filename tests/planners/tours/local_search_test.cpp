@@ -7,11 +7,25 @@
 #include <vector>
 
 #include "tests/planners/tours/small_problem.hpp"
+#include "vantage/planners/tours/order_moves.hpp"
 #include "vantage/planners/tours/route_search.hpp"
 #include "vantage/planners/tours/tour_search.hpp"
 
 namespace vantage {
 namespace {
+
+using Order = std::vector<std::size_t>;
+
+TEST(OrderMoves, APartGoesForthOrBackOrTheOtherWayRound) {
+  const Order order{10, 11, 12, 13, 14, 15};
+  EXPECT_EQ(with_moved(order, 1, 2, 3), (Order{10, 13, 14, 11, 12, 15}));
+  EXPECT_EQ(with_moved(order, 3, 2, 0), (Order{13, 14, 10, 11, 12, 15}));
+  EXPECT_EQ(with_moved(order, 0, 3, 3), (Order{13, 14, 15, 10, 11, 12}));
+  EXPECT_EQ(with_moved(order, 2, 3, 2), order);
+  EXPECT_EQ(with_reversed(order, 1, 4), (Order{10, 13, 12, 11, 14, 15}));
+  EXPECT_EQ(with_reversed(order, 0, 6), (Order{15, 14, 13, 12, 11, 10}));
+  EXPECT_EQ(with_reversed(order, 6, 6), order);
+}
 
 /// From each place to each, and last from the start.
 Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& rows) {
