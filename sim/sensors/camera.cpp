@@ -52,16 +52,21 @@ Pose T_world_camera(const mjModel& model, const mjData& data, int camera_id) {
   return T;
 }
 
+RenderRequest render_request(const RgbdOptions& options) {
+  RenderRequest request;
+  request.near_at_most_m = options.range_min_m;
+  request.far_at_least_m = options.range_max_m;
+  return request;
+}
+
 namespace {
 
 /// Depth is that of surfaces, without errors; 0: there is none.
 CameraImages drawn_by(Renderer& renderer, const mjModel& model, const mjData& data, int camera_id,
-                      RenderRequest request, const RgbdOptions& options) {
+                      const RenderRequest& request, const RgbdOptions& options) {
   expects(renderer.width_px() == options.width_px && renderer.height_px() == options.height_px,
           "renderer of the camera's image size");
   expects(camera_id >= 0 && camera_id < model.ncam, "camera id of the model");
-  request.near_at_most_m = options.range_min_m;
-  request.far_at_least_m = options.range_max_m;
   RenderedImages drawn;
   renderer.render(model, data, FixedCamera{camera_id, options.fovy_rad}, request, drawn);
   return {.width_px = drawn.width_px,
@@ -76,14 +81,15 @@ CameraImages drawn_by(Renderer& renderer, const mjModel& model, const mjData& da
 
 CameraImages rgbd(Renderer& renderer, const mjModel& model, const mjData& data, int camera_id,
                   const RgbdOptions& options, Rng& rng) {
-  CameraImages images = drawn_by(renderer, model, data, camera_id, RenderRequest{}, options);
+  CameraImages images =
+      drawn_by(renderer, model, data, camera_id, render_request(options), options);
   measure_depth(images, options, rng);
   return images;
 }
 
 CameraImages exact_depth_image(Renderer& renderer, const mjModel& model, const mjData& data,
                                int camera_id, const RgbdOptions& options) {
-  RenderRequest request;
+  RenderRequest request = render_request(options);
   request.rgb = false;
   request.range_m = options.range_max_m;
   return drawn_by(renderer, model, data, camera_id, request, options);

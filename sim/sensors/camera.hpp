@@ -30,6 +30,9 @@ CameraImages exact_depth_image(Renderer& renderer, const mjModel& model, const m
                                int camera_id, const RgbdOptions& options);
 void measure_depth(CameraImages& images, const RgbdOptions& options, Rng& rng);
 
+/// What a renderer is to draw for it: colour, depth and segmentation, all of its range.
+RenderRequest render_request(const RgbdOptions& options);
+
 /// Pose of a camera of the model in OpenCV's axes: z forward, x right, y down.
 Pose T_world_camera(const mjModel& model, const mjData& data, int camera_id);
 

@@ -28,10 +28,8 @@ CameraImages rgbd_exposed(Renderer& renderer, const World& world, int camera_id,
   const DataPtr moment = world.copy_data();
   std::vector<int> sum(images.rgb.begin(), images.rgb.end());
   RenderedImages drawn;
-  RenderRequest colour;
+  RenderRequest colour = render_request(options);
   colour.depth_and_segmentation = false;
-  colour.near_at_most_m = options.range_min_m;
-  colour.far_at_least_m = options.range_max_m;
   for (int i = 1; i < exposure.samples; ++i) {
     move_on(world, -exposure.exposure_s * i / (exposure.samples - 1), *moment);
     renderer.render(world.model(), *moment, FixedCamera{camera_id, options.fovy_rad}, colour,
