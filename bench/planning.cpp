@@ -110,18 +110,29 @@ void print_planning(const std::string& name, const std::string& configuration, S
                  {"views", median(parts.views)}});
 }
 
+/// `tour` as the studies have it: partial scans, and images on the way.
+const std::vector<std::string> kTour{"choice=tour", "gaze.worth=0.25", "gaze.share=0.0001",
+                                     "gaze.on_the_way_m=0.5"};
+
+std::vector<std::string> tour_of(const std::string& more) {
+  std::vector<std::string> overrides = kTour;
+  overrides.push_back(more);
+  return overrides;
+}
+
 void run_benchmark() {
   const fs::path directory = fs::temp_directory_path() / "vantage_bench_planning";
   fs::create_directories(directory);
   {
-    const auto resolved = load_episode("assets/episodes/tabletop.yaml", {"choice=tour"});
+    const auto resolved =
+        load_episode("assets/episodes/tabletop_clutter.yaml", {"choice=tour", "scans=30"});
     const RunRequest request = lean_request(resolved, directory);
     TabletopSession<Timed<TabletopParts>> session(request, std::get<Tabletop>(resolved.task));
     print_planning("planning_tabletop", request.config, session);
   }
   for (const char* office : {"office_small", "office_large"}) {
     const auto resolved =
-        load_episode(fmt::format("assets/episodes/{}.yaml", office), {"choice=tour", "scans=30"});
+        load_episode(fmt::format("assets/episodes/{}.yaml", office), tour_of("scans=300"));
     const RunRequest request = lean_request(resolved, directory);
     ExplorationSession<Timed<ExplorationParts>> session(request,
                                                         std::get<Exploration>(resolved.task));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/claims/claims.hpp"
@@ -37,18 +38,35 @@ struct Covered {
   }
 };
 
-/// Of one gain: a choice that asks for no gain does the same under each, and would count twice.
-Covered covered(const StudyTables& study, const std::string& panel) {
+Covered covered(const StudyTables& study, const std::string& panel, const std::string& level) {
+  const auto shares = study.values("interval_coverage", panel, level);
+  const auto scans = study.values("scans", panel, level);
   Covered all;
-  for (const std::string& level : study.levels()) {
-    const auto shares = study.values("interval_coverage", panel, level);
-    const auto scans = study.values("scans", panel, level);
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-      all.decisions += scans[i] - 1.0;  // nothing is forecast of the first
-      all.held += shares[i] * (scans[i] - 1.0);
-    }
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    all.decisions += scans[i] - 1.0;  // nothing is forecast of the first
+    all.held += shares[i] * (scans[i] - 1.0);
   }
   return all;
+}
+
+/// Of one gain, and of the choices that cover least and most: a choice that asks for no gain does
+/// the same under each, and would count twice.
+struct CoveredByChoice {
+  Covered all;
+  std::pair<double, std::string> least{kNever, {}};
+  std::pair<double, std::string> most{-kNever, {}};
+};
+
+CoveredByChoice covered_by_choice(const StudyTables& study, const std::string& panel) {
+  CoveredByChoice by;
+  for (const std::string& level : study.levels()) {
+    const Covered of = covered(study, panel, level);
+    by.all.decisions += of.decisions;
+    by.all.held += of.held;
+    by.least = std::min(by.least, {of.share(), level});
+    by.most = std::max(by.most, {of.share(), level});
+  }
+  return by;
 }
 
 /// Of the episodes of a level of the end, those in which it said that it is done.
@@ -56,6 +74,7 @@ struct SaidDone {
   std::size_t episodes = 0;
   std::size_t said = 0;
   std::size_t wrong = 0;
+  std::vector<Sample> errors;  ///< 1 or 0 of each that said so, with its scene
   std::vector<double> delays;  ///< scans, where it was true in the end
 };
 
@@ -65,6 +84,7 @@ SaidDone said_done(const StudyTables& study, const std::string& panel) {
   const auto seen = of("observed_share");
   const auto scans = of("scans");
   const auto needed = of("scans_to_95");
+  const std::vector<Sample> episodes = study.arrivals("observed_share", panel, kStop);
   SaidDone done;
   done.episodes = sure.size();
   for (std::size_t i = 0; i < sure.size(); ++i) {
@@ -72,11 +92,23 @@ SaidDone said_done(const StudyTables& study, const std::string& panel) {
     const bool right = seen[i] >= kAskedFor;
     done.said += said ? 1 : 0;
     done.wrong += said && !right ? 1 : 0;
+    if (said) {
+      done.errors.push_back(
+          {.pair = i, .value = right ? 0.0 : 1.0, .cluster = episodes[i].cluster});
+    }
     if (right) done.delays.push_back(said ? scans[i] - needed[i] : kNever);
   }
   if (done.said == 0)
     throw NotRun(fmt::format("it says in no episode of {} that it is done", panel));
   return done;
+}
+
+/// "9.4 % [0.0, 18.8]": the interval is over whole scenes.
+std::string error_rate(const SaidDone& done) {
+  const Comparison rate = compare_levels("errors", "errors", {kAllPanels}, {kStop}, 0, done.errors);
+  const ComparisonRow& row = rate.rows.front();
+  return fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100.0 * row.mean, 100.0 * row.interval.low,
+                     100.0 * row.interval.high);
 }
 
 Finding is_seldom_wrong(const StudyTables& study) {
@@ -90,8 +122,8 @@ Finding is_seldom_wrong(const StudyTables& study) {
           const SaidDone done = said_done(study, panel);
           parts.push_back(fmt::format("`{}` {} of {}", panel, done.wrong, done.said));
         }
-        return {fmt::format("wrongly in {} of the {} in which it says so, of {}: {}", all.wrong,
-                            all.said, all.episodes, fmt::join(parts, ", ")),
+        return {fmt::format("wrongly in {} of the {} in which it says so, of {}: {}; {}", all.wrong,
+                            all.said, all.episodes, fmt::join(parts, ", "), error_rate(all)),
                 static_cast<double>(all.wrong) <= 0.1 * static_cast<double>(all.said),
                 "what is behind a door that no scan has looked through is not known of"};
       });
@@ -150,12 +182,15 @@ Finding intervals_cover(const StudyTables& study) {
         std::vector<std::string> parts;
         bool holds = true;
         for (const std::string& panel : study.panels()) {
-          const Covered of = covered(study, panel);
+          const auto [all, least, most] = covered_by_choice(study, panel);
           parts.push_back(
-              fmt::format("`{}` {:.1f} % of {:.0f}", panel, 100.0 * of.share(), of.decisions));
-          holds = of.is_as_said() && holds;
+              fmt::format("`{}` {:.1f} % of {:.0f}, by choice {:.1f} (`{}`) to {:.1f} "
+                          "(`{}`)",
+                          panel, 100.0 * all.share(), all.decisions, 100.0 * least.first,
+                          least.second, 100.0 * most.first, most.second));
+          holds = all.is_as_said() && holds;
         }
-        return {fmt::format("{}", fmt::join(parts, ", ")), holds,
+        return {fmt::format("{}", fmt::join(parts, "; ")), holds,
                 "errors are more alike within an episode than the next episode is to it"};
       });
 }

@@ -12,6 +12,8 @@ namespace vantage::bench {
 Finding adaptive_against_simple(const StudyTables& study, const std::vector<const char*>& tables);
 /// Of all levels of a study of explorations or of table tops.
 Finding intervals_cover(const StudyTables& study);
+/// Poses within 50 mm and precision of 0.98, in every episode.
+Finding maps_are_right(const StudyTables& study);
 /// @param compared what the study compares, "method"
 Finding without_collision(const StudyTables& study, const char* compared);
 

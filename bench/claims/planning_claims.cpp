@@ -169,6 +169,7 @@ std::vector<Finding> planning_office_findings(const StudyTables& study, double t
   findings.push_back(less_area(study));
   findings.push_back(calibration_matters(study, "time_to_95_s"));
   findings.push_back(intervals_cover(study));
+  findings.push_back(maps_are_right(study));
   findings.push_back(without_collision(study, "choice"));
   return findings;
 }

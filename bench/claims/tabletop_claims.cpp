@@ -59,9 +59,9 @@ Finding fastest_by_information(const StudyTables& study) {
               const double random = area(scene, "random");
               return area(scene, "probabilistic") < simple && simple < random;
             }),
-            "one `a` fits one clutter: with few objects its chain discounts far too much; with 15 "
-            "and 25 it predicts better than `simple`, and what it chooses is no better for it; the "
-            "one-step oracle has " +
+            "one `a` fits one clutter: with few objects its chain discounts far too much; where it "
+            "predicts better than `simple`, with 8 objects and more, it chooses better with 40 "
+            "alone; the one-step oracle has " +
                 by_scene(to_simple("oracle")) + " of `simple`'s area"};
       });
 }

@@ -18,6 +18,7 @@
 #include "bench/pages/study_parts.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
+#include "vantage/core/hash.hpp"
 #include "vantage/core/yaml.hpp"
 
 namespace vantage::bench {
@@ -39,8 +40,10 @@ names; numbers are of the report split.
 The dissertation is C. Potthast, *Information Theoretical Action Selection*, USC 2016.
 
 `\*`: the code that it depends on has changed since the commit that it is of. `?`: whether it has is
-unknown. `-dirty`: of that commit with changes that were not committed. `bench/studies verify` runs episodes drawn at random again: how many came to the recorded
-state hash, bit by bit, is told under "run again". A claim on numbers that are not all there is "not run".
+unknown. `-dirty`: of that commit with changes that were not committed. `bench/studies verify` runs
+episodes drawn at random again: how many came to the recorded
+state hash, bit by bit, is told under "run again". "configurations" is one hash of those of all
+episodes, which `results.csv` has. A claim on numbers that are not all there is "not run".
 )";
 
 /// "scene: dev_4, dev_8; start: start_0"
@@ -63,11 +66,18 @@ fs::path study_file(const std::string& name) {
 
 /// "3 of 3 on 5ecfa2e": episodes that `bench/studies verify` ran again to the recorded state hash.
 std::string verified_text(const fs::path& file) {
-  if (!fs::exists(file)) return "-";
+  if (!fs::exists(file)) return "not yet";
   const CsvTable verified = read_csv(file);
-  if (verified.rows.empty() || verified.rows.front().size() < 3) return "-";
+  if (verified.rows.empty() || verified.rows.front().size() < 3) return "not yet";
   const auto& row = verified.rows.front();
   return fmt::format("{} of {} on {}", row[2], row[1], row[0]);
+}
+
+/// One hash of those of all episodes.
+std::string configurations_text(const fs::path& results) {
+  const std::set<std::string> hashes = entries_of(results, "config_hash");
+  if (hashes.empty()) return "not recorded";
+  return hash_text(hash_bytes(fmt::format("{}", fmt::join(hashes, " ")))).substr(0, 8);
 }
 
 bool is_of_a_mapping_task(const fs::path& file, const ConfigNode& study) {
@@ -96,24 +106,32 @@ std::vector<StudyResult> read_studies(const fs::path& directory) {
 /// What options were chosen on, what is reported, and of what code and machine that is.
 std::string splits_table(const fs::path& directory, const std::vector<StudyResult>& studies) {
   std::string text =
-      "| study | development split | report split | episodes | commit | run again | threads, "
-      "CPU "
-      "|\n|---|---|---|---|---|---|---|\n";
+      "| study | development split | report split | episodes | commit | configurations | run again "
+      "| threads, CPU |\n|---|---|---|---|---|---|---|---|\n";
   for (const auto& [part, study] : studies) {
     const fs::path results = directory / part.name / "results.csv";
     const fs::path timings = directory / part.name / "timings.csv";
     const ConfigNode file = read_yaml(study_file(part.name));
     const bool run = fs::exists(results);
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} {} |\n", part.name,
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} {} |\n", part.name,
                         split_text(file, "development"), split_text(file, "report"), study.extent(),
                         run ? commits_text(entries_of(results, "commit"), results,
                                            is_of_a_mapping_task(study_file(part.name), file))
                             : "not run",
+                        run ? configurations_text(results) : "-",
                         verified_text(directory / part.name / "verified.csv"),
                         fmt::join(entries_of(timings, "threads"), ", "),
                         fmt::join(entries_of(timings, "cpu"), ", "));
   }
   return text;
+}
+
+/// Of the runs that there are results of.
+CsvTable bounds_of(const fs::path& study) {
+  const fs::path bounds = study / "bounds.csv";
+  const fs::path results = study / "results.csv";
+  if (!fs::exists(bounds) || !fs::exists(results)) return {};
+  return of_results(read_csv(bounds), read_csv(results));
 }
 
 /// Nothing, where it was not run.
@@ -124,6 +142,13 @@ Json json_or_nothing(const fs::path& file) {
 std::string reliability_picture(const fs::path& folder) {
   if (!fs::exists(folder / "unknown" / "reliability.svg")) return "";
   return "\n![Reliability of P(object)](results/recognition/unknown/reliability.svg)\n";
+}
+
+/// ", 2 threads of AMD EPYC"; "" of summaries that do not say.
+std::string machine_text(const Json& summary) {
+  if (!summary.contains("cpu") || !summary.contains("threads")) return "";
+  return fmt::format(", {} threads of {}", summary["threads"].get<int>(),
+                     summary["cpu"].get<std::string>());
 }
 
 /// Summaries that `vantage evaluate` wrote, and of which code each is.
@@ -138,7 +163,8 @@ class Evaluations {
     const Json commit = json.value("commit", Json());
     const bool known = commit.is_string();
     parts_[commits_text(known ? std::set{commit.get<std::string>()} : std::set<std::string>{},
-                        file)]
+                        file) +
+           machine_text(json)]
         .push_back(known ? part : part + " (intervals are over single starts)");
     return json;
   }
@@ -221,8 +247,8 @@ void write_results(const fs::path& directory) {
   for (const auto& [part, study] : studies) {
     std::vector<Finding> findings = part.findings(study);
     if (part.is_bounded) {
-      findings.push_back(above_the_bound(
-          StudyTables(study_file(part.name), directory / part.name / "bounds.csv")));
+      findings.push_back(
+          above_the_bound(StudyTables(study_file(part.name), bounds_of(directory / part.name))));
     }
     text += fmt::format("\n## {}\n\n`bench/studies {}`. {}\n\n", part.title, part.name,
                         opening_comment(study_file(part.name))) +

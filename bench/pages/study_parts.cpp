@@ -9,20 +9,28 @@ const std::vector<StudyPart>& study_parts() {
       "area",           "area_from_scan_2", "scans_to_95", "scans",
       "observed_share", "path_length_m",    "collisions",  "prediction_error_cells",
       "forecast_ratio", "predictors"};
+  static const std::vector<std::string> office_tables = [] {
+    std::vector<std::string> more = tables;
+    more.insert(more.end() - 1,
+                {"forecast_ratio_to_1_m", "forecast_ratio_to_2_m", "forecast_ratio_to_3_m",
+                 "forecast_ratio_beyond_3_m", "outside_share"});
+    return more;
+  }();
   static const std::vector<std::string> planning_tables = {
-      "time_to_80_s", "time_to_90_s", "time_to_95_s",   "time_to_97_s",   "path_to_95_m",
-      "scans_to_95",  "reached_95",   "area_over_time", "observed_share", "collisions"};
+      "time_to_80_s",   "time_to_90_s",       "time_to_95_s", "time_to_97_s",
+      "path_to_95_m",   "scans_to_95",        "reached_95",   "area_over_time",
+      "observed_share", "worst_pose_error_m", "precision",    "collisions"};
   static const std::vector<StudyPart> parts = {
       {"tabletop", "Worktops (Fig. 3.10)", tables, tabletop_findings},
       {"tabletop_predictors",
        "Predictions on worktops (Fig. 3.11)",
        {"predictors"},
        prediction_findings},
-      {"office_small", "Small office (Fig. 3.15)", tables,
+      {"office_small", "Small office (Fig. 3.15)", office_tables,
        [](const StudyTables& study) {
          return office_findings(study, "Fig. 3.15", {20, 25});
        }},
-      {"office_large", "Large office (Fig. 3.16)", tables,
+      {"office_large", "Large office (Fig. 3.16)", office_tables,
        [](const StudyTables& study) {
          return office_findings(study, "Fig. 3.16", {60, 70});
        }},

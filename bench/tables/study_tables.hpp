@@ -37,6 +37,10 @@ std::string ratio_text(const Difference& paired);
 /// The panel that holds all others.
 inline constexpr const char* kAllPanels = "all";
 
+/// Rows whose episode is in `results`, and where both tables have a state hash, as the same one:
+/// what is told of an episode that has no result counts no more.
+CsvTable of_results(CsvTable table, const CsvTable& results);
+
 class StudyTables {
  public:
   /// @param results of sweep collect; no rows if it was never run

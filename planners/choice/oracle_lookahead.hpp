@@ -1,4 +1,4 @@
-/// The upper bound of choices that plan more than one view ahead.
+/// What choices that plan more than one view ahead can come to, up to the width of a beam.
 #pragma once
 
 #include <cstddef>

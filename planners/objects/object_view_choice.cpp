@@ -96,6 +96,12 @@ void require_no_weights(const ObjectViewOptions& options, std::string_view where
   }
 }
 
+Rng choice_stream(const ObjectViewChoice& choice, std::uint64_t seed) {
+  const auto* random = std::get_if<RandomObjectView>(&choice);
+  if (random == nullptr || random->draw == 0) return Rng::stream(seed, "recognition");
+  return Rng::stream(seed, fmt::format("recognition {}", random->draw));
+}
+
 ObjectViewDecision choose_object_view(const ObjectViewOptions& options,
                                       const ObjectViewSituation& situation, Rng& rng) {
   expects(!situation.actions.empty(), "choose_object_view needs an action");

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -22,7 +23,13 @@ struct RandomObjectView {
   static constexpr std::string_view name = "random";
   static constexpr StrategyText text{
       .summary = "Takes any view of the object, each as likely as the other. The baseline."};
-  void fields(auto&&) {}
+  int draw = 0;
+  void fields(auto&& f) {
+    f("draw", draw,
+      "which of the sequences of views that one seed has a flight takes; another for each of "
+      "several flights that differ by nothing else",
+      at_least(0));
+  }
 };
 
 struct StarView {
@@ -128,6 +135,9 @@ struct ObjectViewScore {
   double cost = 1.0;         ///< what the gain was divided by
   double score = 0.0;        ///< what the choice compares; -inf: left out
 };
+
+/// The random numbers that a choice draws in a flight of that seed.
+Rng choice_stream(const ObjectViewChoice& choice, std::uint64_t seed);
 
 struct ObjectViewDecision {
   std::size_t action = 0;

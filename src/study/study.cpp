@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "vantage/core/hash.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/study/study_reading.hpp"
 
@@ -47,6 +48,14 @@ std::string start_of(const EpisodeSetup& setup) {
                      robot.start_site, fmt::join(pose, " "));
 }
 
+/// A draw that no other episode has: those of one start in two scenes would share it.
+void draw_anew(const std::string& key, const std::string& episode, Overrides& overrides) {
+  constexpr std::uint64_t kDraws = 1'000'000'000;
+  for (auto& [name, value] : overrides) {
+    if (name == key) value.scalar = fmt::to_string(1 + hash_bytes(episode) % kDraws);
+  }
+}
+
 PlannedEpisode planned(const Study& study, ConfigNode root, EpisodeLevels levels) {
   PlannedEpisode episode{std::move(levels.name), std::move(levels.levels), {}};
   Overrides overrides = study.set;
@@ -54,6 +63,7 @@ PlannedEpisode planned(const Study& study, ConfigNode root, EpisodeLevels levels
     const Level& level = study.factors[f].levels[episode.levels[f]];
     overrides.insert(overrides.end(), level.overrides.begin(), level.overrides.end());
   }
+  if (!study.draws.empty()) draw_anew(study.draws, episode.name, overrides);
   set_values(root, std::move(overrides));
   episode.resolved = resolve_episode(root, study.episode);
   return episode;
@@ -168,6 +178,10 @@ std::vector<KeyDescription> study_keys() {
           "name of a split: name of a factor: list of its levels; a factor that a split does not "
           "name keeps all. Choose on one split, report on another"),
       key("split", "text", "the split that is run; default: the first. `--split` overrides it"),
+      key("draws", "text",
+          "key of an option that numbers random sequences, `choice.draw` say: every episode that "
+          "sets it gets a number of its own, of its name, so that episodes of one seed in two "
+          "scenes share no sequence; default: the numbers are as the levels say"),
       key("report", "section", "what is made of the results"),
       key("report.groups", "section",
           "name: list of levels of one factor that go by that name in panels and comparisons; "

@@ -13,6 +13,7 @@
 ///     development: {start: [start_0, start_1]}
 ///     report: {start: [start_2, start_3]}
 ///   split: development           the one that is run; by default the first
+///   draws: choice.draw           a sequence of random numbers for every episode that sets it
 ///   report: {compare: method, reference: random, ...}     StudyReport
 #pragma once
 
@@ -82,6 +83,7 @@ struct Study {
   Overrides set;
   std::vector<Factor> factors;  ///< at least one
   StudyReport report;
+  std::string draws;  ///< key that numbers random sequences; empty: as the levels say
   std::string split;  ///< of the levels, those that are run; empty: all
   std::string yaml;   ///< the whole study; files named as found again from any directory
 };

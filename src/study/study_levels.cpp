@@ -88,6 +88,21 @@ void take_split(ConfigNode& root, const std::string& wanted, Study& study, Probl
   });
 }
 
+void require_drawn(const ConfigNode& root, const Study& study, Problems& problems) {
+  if (study.draws.empty()) return;
+  const auto sets_it = [&](const Overrides& overrides) {
+    return std::ranges::find(overrides, study.draws, &KeyValue::first) != overrides.end();
+  };
+  const auto has_it = [&](const Factor& factor) {
+    return std::ranges::any_of(factor.levels, sets_it, &Level::overrides);
+  };
+  problems.attempt([&] {
+    if (sets_it(study.set) || std::ranges::any_of(study.factors, has_it)) return;
+    throw ConfigError(
+        fmt::format("{}: no level sets '{}'", root.find("draws")->where(), study.draws));
+  });
+}
+
 ConfigNode take_groups(const ConfigNode& root, std::vector<LevelGroup>& groups,
                        Problems& problems) {
   ConfigNode rest = root;

@@ -15,6 +15,9 @@ namespace vantage {
 /// `study` and as the key `split`, so that the file can be read again.
 void take_split(ConfigNode& root, const std::string& wanted, Study& study, Problems& problems);
 
+/// The key `draws` is one that some level, or every episode, sets to a number.
+void require_drawn(const ConfigNode& root, const Study& study, Problems& problems);
+
 /// Reads `report.groups`. @return `root` without them
 ConfigNode take_groups(const ConfigNode& root, std::vector<LevelGroup>& groups, Problems& problems);
 

@@ -19,8 +19,6 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::string_view kStudyFile = "study";  ///< in the folder of its results
-
 void require_name(const ConfigNode& node, const std::string& name, const char* what) {
   if (is_study_name(name)) return;
   throw ConfigError(fmt::format("{}: {} '{}' {}", node.where(), what, name, kStudyNameRule));
@@ -68,11 +66,10 @@ void read_set(ConfigNode& root, const fs::path& file, const std::vector<std::str
               StudyReading& reading) {
   ConfigNode set = root.find("set") != nullptr ? *root.find("set") : ConfigNode::make_map();
   if (set.kind == ConfigNode::Kind::null) set.kind = ConfigNode::Kind::map;
-  Problems& problems = reading.problems;
-  if (!problems.attempt([&] { detail::require_kind(set, ConfigNode::Kind::map); })) return;
-  problems.attempt([&] { settle_files(set, file.parent_path()); });
+  if (!reading.problems.attempt([&] { detail::require_kind(set, ConfigNode::Kind::map); })) return;
+  reading.problems.attempt([&] { settle_files(set, file.parent_path()); });
   for (const auto& assignment : overrides) {
-    problems.attempt([&] { add_override(set, assignment); });
+    reading.problems.attempt([&] { add_override(set, assignment); });
   }
   reading.study.set = set.entries;
   root.set("set", std::move(set));
@@ -249,11 +246,12 @@ bool is_titled(const ConfigNode& root) {
          (title->kind != ConfigNode::Kind::scalar || !title->scalar.empty());
 }
 
-/// Of a study that gives itself none: its file's name, or that of the folder of its results.
+/// Of a study that gives itself none: its file's name, or that of the folder of its results, where
+/// the file is called study.yaml.
 std::string title_of(const fs::path& file) {
   const std::string stem = file.stem().string();
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path().filename();
-  return stem == kStudyFile && !folder.empty() ? folder.string() : stem;
+  return stem == "study" && !folder.empty() ? folder.string() : stem;
 }
 
 }  // namespace
@@ -279,6 +277,7 @@ StudyReading read_study_file(const fs::path& file, const std::vector<std::string
   reading.problems.attempt([&] {
     FieldReader reader(plain);
     reader("title", study.title, "title of the report; by default the name of the file");
+    reader("draws", study.draws, "key that numbers the random sequences of episodes");
     reader("report", study.report, "what `vantage sweep collect` makes of the results");
     for (const char* key : {"episode", "set", "factors", "seeds", "splits", "split"}) {
       reader.allow(key);
@@ -289,6 +288,7 @@ StudyReading read_study_file(const fs::path& file, const std::vector<std::string
   read_set(root, file, overrides, reading);
   read_factors(root, file, reading);
   require_disjoint(study, reading.problems);
+  require_drawn(root, study, reading.problems);
   study.report.groups = std::move(groups);
   take_split(root, split, study, reading.problems);
   check_groups(root, study, reading.problems);

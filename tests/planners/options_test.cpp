@@ -213,6 +213,7 @@ TEST(PlannerOptions, OfRecognition) {
   expect_numbers(GainBelow{}, {{"threshold", 0.02, kNotNegativeOption}});
   expect_numbers(MonteCarloInformation{}, {{"samples", 1000, between(2, 1'000'000)}});
   expect_numbers(LossOfEntropy{}, {{"samples", 64, between(2, 1'000'000)}, {"at_mean", 0}});
+  expect_numbers(RandomObjectView{}, {{"draw", 0, kNotNegativeOption}});
   expect_numbers(NearestFreeView{}, {{"min_visible", 0.5, kShareOption}});
   expect_numbers(ObjectViewOptions{}, {{"states", 48, between(1, 100'000)},
                                        {"about_object", 1},

@@ -159,7 +159,7 @@ TEST(StudyKeys, AreSectionsOrTexts) {
     EXPECT_TRUE(key(name).section) << name;
     EXPECT_THAT(key(name).text, HasSubstr(" ")) << name;
   }
-  for (const char* name : {"title", "episode", "split"}) {
+  for (const char* name : {"title", "episode", "split", "draws"}) {
     EXPECT_EQ(key(name).type, "text");
     EXPECT_FALSE(key(name).section) << name;
     EXPECT_THAT(key(name).text, HasSubstr(" ")) << name;

@@ -336,6 +336,22 @@ TEST_F(StudyFile, AClusterIsAFactorThatIsNotCompared) {
   expect_problem(text + "report: {cluster: method}\n", {"report.cluster", "alike"});
 }
 
+TEST_F(StudyFile, DrawsAreOfTheEpisodeAlone) {
+  const std::string seen =
+      replaced(kSmallStudy, "random: {choice: random}", "random: {choice: random, choice.draw: 1}");
+  const auto draw = [](const PlannedEpisode& episode) {
+    return std::get<RandomView>(std::get<Tabletop>(episode.resolved.task).choice).draw;
+  };
+  const auto shared = plan(seen);
+  EXPECT_EQ(draw(shared[0]), 1);
+  EXPECT_EQ(draw(shared[2]), 1) << "from the other start";
+  const auto own = plan("draws: choice.draw\n" + seen);
+  EXPECT_NE(draw(own[0]), draw(own[2]));
+  EXPECT_EQ(draw(own[0]), draw(plan("draws: choice.draw\n" + seen)[0]));
+  EXPECT_EQ(method_name(own[1].resolved.task), "beer_lambert a=0.999") << "it draws nothing";
+  expect_problem("draws: choice.drow\n" + seen, {"s.yaml:1", "no level sets 'choice.drow'"});
+}
+
 TEST_F(StudyFile, ShardsAreAPartition) {
   const auto all = names(plan(kSmallStudy));
   std::vector<std::string> merged;

@@ -88,6 +88,7 @@ Json study_schema(const Json& tasks) {
       {"seeds", seeds_schema()},
       {"splits", named({{"type", "object"}, {"additionalProperties", levels_list()}})},
       {"split", {{"type", {"string", "number", "boolean"}}}},
+      {"draws", {{"type", "string"}}},
       {"report", report_schema()},
   };
   add_texts(properties);

@@ -1,5 +1,6 @@
 #include "vantage/tasks/exploration/frontier_views.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,16 @@ namespace {
 
 /// A frontier so near to a candidate comes into sight from there.
 constexpr double kNear_m = 1.5;
+
+/// Nothing that the robot has met stands between the two.
+bool sees_across(const FloorMap& floor, const Eigen::Vector2d& a_m, const Eigen::Vector2d& b_m) {
+  const double length_m = (b_m - a_m).norm();
+  const int steps = 1 + static_cast<int>(2.0 * length_m / floor.cell_m);
+  for (int i = 0; i <= steps; ++i) {
+    if (floor.state_at(a_m + (b_m - a_m) * i / steps) == CellState::occupied) return false;
+  }
+  return true;
+}
 
 /// At a cell that is reachable.
 Pose2 base_at(const PathField& paths, std::size_t cell) {
@@ -38,7 +49,6 @@ std::vector<Candidate> frontier_views(const Exploration& task, const FrontierVie
                                       bool all) {
   const Outlooks outlooks(input.paths);
   VisitedPlaces proposed;
-  VisitedPlaces near_proposed;
   std::vector<Candidate> views;
   for (const Frontier& frontier : find_frontiers(input.grid, task.frontiers)) {
     const bool full = static_cast<int>(views.size()) >= task.max_candidates;
@@ -51,12 +61,15 @@ std::vector<Candidate> frontier_views(const Exploration& task, const FrontierVie
     view.T_world_sensor = to_se3(*base) * input.T_base_sweep;
     const Eigen::Vector2d p_sweep = view.T_world_sensor.translation().head<2>();
     if (input.visited.covers(p_sweep) || proposed.covers(p_sweep)) continue;
-    if (full && near_proposed.covers(p_sweep)) continue;
+    const auto shows_it = [&](const Candidate& other) {
+      const Eigen::Vector2d p_other = other.T_world_sensor.translation().head<2>();
+      return (p_other - p_sweep).norm() < kNear_m && sees_across(input.paths.map, p_other, p_sweep);
+    };
+    if (full && std::ranges::any_of(views, shows_it)) continue;
     view.reachable = all || (position(*base) - wanted).norm() <= task.reach_m;
     view.path_length_m = view.reachable ? path_length_m(input.paths, *base)
                                         : std::numeric_limits<double>::infinity();
     proposed.add(p_sweep, task.taken_m);
-    near_proposed.add(p_sweep, kNear_m);
     views.push_back(view);
   }
   return views;

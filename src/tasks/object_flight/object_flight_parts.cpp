@@ -28,7 +28,7 @@ ObjectFlightParts::ObjectFlightParts(const ObjectFlightContext& context, const F
       at_orbit_(orbit(0)),
       at_rad_(robot_.start_bearing_rad()),
       expectation_(std::move(expectation)),
-      choice_rng_(Rng::stream(context.options.seed, "recognition")),
+      choice_rng_(choice_stream(context.task.decision.views.choice, context.options.seed)),
       segmentation_rng_(Rng::stream(context.options.seed, "segmentation")) {
   if (goal_.among_others) map_.emplace(task_.p_world_table_m(), goal_.among_others->map);
   recorder_.set_panel([this] { return panel(); });

@@ -105,6 +105,14 @@ TEST_F(ObjectViewChoiceTest, RandomTakesEveryActionAboutAsOften) {
   for (const int count : taken) EXPECT_NEAR(count, 1000, 5.0 * std::sqrt(1000.0));
 }
 
+TEST(ObjectChoiceStream, EveryDrawIsASequenceOfItsOwn) {
+  const auto first = [](Rng rng) { return rng.next(); };
+  const std::uint64_t common = first(Rng::stream(7, "recognition"));
+  EXPECT_EQ(first(choice_stream(RandomObjectView{}, 7)), common);
+  EXPECT_EQ(first(choice_stream(MutualInformation{}, 7)), common);
+  EXPECT_EQ(first(choice_stream(RandomObjectView{3}, 7)), first(Rng::stream(7, "recognition 3")));
+}
+
 TEST_F(ObjectViewChoiceTest, StarGoesToTheOppositeSide) {
   EXPECT_EQ(choose({.choice = StarView{}}).action, 3U);
   for (auto& action : actions_) action.yaw_rad -= 4.0 * std::numbers::pi;

@@ -87,6 +87,15 @@ TEST_F(FrontierViews, AreOfAllOthersThatAreNotNearForAChoiceThatPlansAhead) {
   expect_places(true, {kLargest, kNext, kFar});
 }
 
+/// A thin wall stands between the places, with a way round.
+TEST_F(FrontierViews, AreOfThoseBehindAWallThoughTheyAreNear) {
+  task_.max_candidates = 1;
+  const Eigen::Vector2d middle = 0.5 * (kLargest + kBeside);
+  const Eigen::Vector2d half(0.3, 0.05);
+  block_box(floor_, {middle - half, middle + half});
+  expect_places(true, {kLargest, kBeside, kNext, kFar});
+}
+
 TEST_F(FrontierViews, AreNotWhereTheRobotWasNorTooNearEachOther) {
   visited_.add(kNext, 0.3);
   expect_places(false, {kLargest, kBeside, kFar});

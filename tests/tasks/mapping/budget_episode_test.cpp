@@ -121,6 +121,25 @@ TEST(BudgetKeeper, GoesOnWhileTheWayThatItCameCanBePaid) {
   EXPECT_TRUE(navigator.may_go_on());
 }
 
+/// Walls all round that it has met since it left.
+TEST(BudgetKeeper, FailsTheEpisodeThatDoesNotComeHome) {
+  SteppingRobot robot;
+  Navigator navigator = navigator_on_open_floor(robot);
+  BudgetKeeper keeper({.return_to_start = true}, 0.6, robot, navigator);
+  ASSERT_TRUE(navigator.approach({3.0, 0.0, 0.0}, std::nullopt).reached);
+  block_box(navigator.floor(), {Eigen::Vector2d(1.0, -7.0), Eigen::Vector2d(1.2, 7.0)});
+  try {
+    keeper.come_home();
+    ADD_FAILURE() << "it is not there";
+  } catch (const EpisodeFailed& failed) {
+    EXPECT_STREQ(failed.what(), "budget.return_to_start: the start was not reached");
+  }
+  nlohmann::ordered_json metrics;
+  keeper.add_metrics(metrics);
+  EXPECT_EQ(metrics["budget"]["returned"], false);
+  EXPECT_EQ(metrics["budget"]["kept"], false);
+}
+
 /// A drive of fewer than ten ticks ends before it asks.
 TEST(Navigator, HasTurnedBackOnThatDriveAlone) {
   SteppingRobot robot;

@@ -23,7 +23,8 @@ struct BudgetOptions {
       above(0.0));
     f("energy_j", energy_j, "energy that the robot has from the start; null: no limit", above(0.0));
     f("return_to_start", return_to_start,
-      "true: the way back to the start is part of the budget, and the episode ends there");
+      "true: the way back to the start is part of the budget, and the episode ends there; one that "
+      "does not get there has failed");
   }
   [[nodiscard]] bool is_limited() const { return time_s || energy_j; }
 };

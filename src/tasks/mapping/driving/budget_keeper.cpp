@@ -113,7 +113,7 @@ void BudgetKeeper::come_home() {
   if (!budget_.options().return_to_start) return;
   coming_home_ = true;
   returned_ = navigator_.approach(home_, std::nullopt).reached;
-  if (!returned_) log_warning("budget.return_to_start: the start was not reached");
+  if (!returned_) throw EpisodeFailed("budget.return_to_start: the start was not reached");
 }
 
 std::vector<double> BudgetKeeper::home_s(std::span<const Eigen::Vector2d> places_m) const {

@@ -32,7 +32,7 @@ class BudgetKeeper {
   /// Why no view can be taken any more: none is in reach, or none of those is affordable; empty if
   /// one can, or without a limit. @throws EpisodeFailed if that is so after the first scan
   [[nodiscard]] std::string used_up(const std::vector<Candidate>& views, std::size_t scans) const;
-  /// Drives home if that is asked for.
+  /// Drives home if that is asked for. @throws EpisodeFailed if it does not get there
   void come_home();
 
   [[nodiscard]] const SpendingRates& rates() const { return rates_; }
