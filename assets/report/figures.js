@@ -79,6 +79,18 @@ function changePlots(parent) {
   observationPlots(parent);
 }
 
+// What is left of all that can be seen, after each scan, over what it took.
+function leftPlots(parent) {
+  const all = METRICS.observable_cells ?? STEPS[0]?.observable_unobserved_cells;
+  if (!(all > 0)) return;
+  const over = (key) => STEPS.filter((s) => isNumber(s[key]) && isNumber(s.observable_unobserved_cells)).map((s) => [s[key], 100 * s.observable_unobserved_cells / all]);
+  for (const [key, title, x] of [["time_s", "Left to see, over time", "time in s"], ["path_length_m", "Left to see, over the way", "path length in m"]]) {
+    const points = over(key);
+    if (points.length < 2) continue;
+    lineChart(parent, { title, subtitle: "of what can be seen at all, after each scan", x, y: "left in %", unit: "%", series: [{ name: "left", colour: seriesColour(0), strong: true, points }] });
+  }
+}
+
 function mappingPlots(parent) {
   const chart = (title, subtitle, y, unit, series) => {
     if (series.some((s) => s.points.some((p) => isNumber(p[1])))) lineChart(parent, { title, subtitle, x: "scan", y, unit, integerX: true, series });
@@ -87,6 +99,7 @@ function mappingPlots(parent) {
     { name: "unobserved", colour: seriesColour(8), points: perScan(column("unobserved_cells")), dashed: true },
     { name: "of these, observable from some view", colour: seriesColour(0), strong: true, points: perScan(column("observable_unobserved_cells")) },
   ]);
+  leftPlots(parent);
   predictionPlots(parent);
   const millimetres = (key) => perScan(column(key).map((v) => (isNumber(v) ? 1000 * v : null)));
   chart("Pose error", "against the simulator's truth", "position error in mm", "mm", [

@@ -48,6 +48,19 @@ function showBound(parent, bound) {
 
 const ratePerS = (branch) => (branch && branch.seconds > 0 ? (branch.new_cells ?? 0) / branch.seconds : null);
 
+// Every view of a decision: what was predicted of it, and what came of it.
+function showAlternatives(parent, decision) {
+  const box = append(parent, "details");
+  append(box, "summary", {}, `All views after scan ${decision.scan}`);
+  const columns = [["view", ""], ["predicted", decision.gain_unit], ["new cells", ""], ["way as planned", "m"], ["way as driven", "m"], ["took", "s"], ["cells / s", ""]];
+  const byRate = [...decision.branches].sort((a, b) => (ratePerS(b) ?? -1) - (ratePerS(a) ?? -1));
+  hindsightTable(box, `All views after scan ${decision.scan}`, columns, byRate.map((b) => ({
+    marked: b.chosen,
+    cells: [`${b.view}${b.chosen ? ", chosen" : ""}`, formatNumber(b.gain, 4), isNumber(b.new_cells) ? formatNumber(b.new_cells) : "no scan",
+      isNumber(b.planned_m) ? formatNumber(b.planned_m, 3) : "out of reach", formatNumber(b.way_m, 3), formatNumber(b.seconds, 3), isNumber(ratePerS(b)) ? formatNumber(ratePerS(b), 3) : "–"],
+  })));
+}
+
 // Decision by decision; those that nobody has branched say so.
 function showRegret(parent, branches) {
   append(parent, "h3", {}, "Regret of each decision");
@@ -65,6 +78,7 @@ function showRegret(parent, branches) {
       `${best_view} (${formatNumber(of(best_view).new_cells)})`, formatNumber(cells), `${fastest_view} (${formatNumber(ratePerS(of(fastest_view)), 3)})`, formatNumber(cells_per_s, 3)] };
   });
   hindsightTable(parent, "Regret", columns, rows);
+  for (const decision of branches.decisions) showAlternatives(parent, decision);
   const told = branches.decisions.filter((d) => d.regret);
   if (told.length < 2) return;
   const plot = append(parent, "div", { class: "plots" });

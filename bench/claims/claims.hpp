@@ -64,6 +64,8 @@ std::vector<Finding> planning_tabletop_findings(const StudyTables& study);
 Finding above_the_bound(const StudyTables& bounds);
 /// Of explorations that end when the robot is sure to be done.
 std::vector<Finding> stop_findings(const StudyTables& study);
+/// Of budgets with the way home.
+std::vector<Finding> budget_findings(const StudyTables& study);
 /// Of buildings with narrow doors and loops: the goals of this project.
 std::vector<Finding> building_findings(const StudyTables& study);
 std::vector<Finding> trajectory_findings(const StudyTables& study);

@@ -85,7 +85,8 @@ bool is_asked_for(const std::string& column) {
                                "targets_correct",
                                "hidden_views",
                                "precision",
-                               "worst_pose_error_m"};
+                               "worst_pose_error_m",
+                               "budget_kept"};
   return column.starts_with("prediction_error_") || column.starts_with("forecast_ratio") ||
          std::ranges::find(kTables, column) != kTables.end();
 }
@@ -204,7 +205,8 @@ INSTANTIATE_TEST_SUITE_P(
              [](const StudyTables& s) { return planning_office_findings(s, 0.92, std::nullopt); }},
         Case{"planning_office_large",
              [](const StudyTables& s) { return planning_office_findings(s, 0.80, 0.65); }},
-        Case{"honest_stop", stop_findings}, Case{"buildings", building_findings},
+        Case{"honest_stop", stop_findings}, Case{"budgets", budget_findings},
+        Case{"buildings", building_findings},
         Case{"recognition_flight", flight_recognition_findings},
         Case{"recognition_clutter", clutter_findings},
         Case{"change_flight", flight_change_findings}, Case{"trajectory", trajectory_findings}),

@@ -127,6 +127,9 @@ def of_targets(made):
         "manifest": json[:1], "metrics": json[1:], "report_page": [parts(json[0], b"{}", b"{}", json[1])],
         "planner_answer": [parts(HELLO, b'{"view": 1}\n'), parts(HELLO + b'{"pose": [0.1,', b' 0.2, 0.3]}\n{"view": 0, "why": "x"}\n'),
                            parts(b"", b'{"protocol": "vantage-planner", "version": 2}\n')],
+        "claim": [b'{"host": "a", "machine": "m", "pid": 7, "started": "3", "released": true}',
+                  b'{"host": "a", "pid": 7, "slurm": {"cluster": "c", "job": "1", "task": "2", "restart": 0}}'],
+        "branches": [b'{"decisions": [{"scan": 1, "branches": []}, {"scan": 2, "regret": null}]}'],
         "worker_message": [parts(b"code: 0\n", b""), b"\x04\0\0\0\0\0\0\0abcd"],
     }
 

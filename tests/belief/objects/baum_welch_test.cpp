@@ -230,6 +230,13 @@ TEST(LearnSequence, ApproachesTheTruthAsSequencesComeIn) {
   EXPECT_GT(learned.same_object, 0.97);
 }
 
+TEST(BaumWelch, OfNoSequenceIsTheStartAtOnce) {
+  const ObjectStates states = test::make_states({0, 0}, 4);
+  const BaumWelchResult result = baum_welch(states, RigidTransition{}, Sequences{}, {});
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.log_likelihood, (std::vector<double>{0.0, 0.0}));
+}
+
 TEST(BaumWelch, EndsWhereTheLikelihoodHardlyGrowsOrAfterThePassesAllowed) {
   const ObjectStates states = test::make_states({0, 0, 1}, 8);
   Rng rng(27);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/choice/view_choice.hpp"
 
 namespace vantage {
@@ -161,6 +162,14 @@ TEST(OracleLookahead, ABeamHoldsSetsOfViewsNotOrdersOfThem) {
   EXPECT_EQ(found, (Sequence{1, 2, 3}));
   EXPECT_EQ(value_of(views, found), 2U + 4U + 6U);
   EXPECT_EQ(value_of(views, {0, 1, 2}), 2U + 4U + 5U);
+}
+
+/// Once for the plan that is extended, and once for each of the two that are kept.
+TEST(OracleLookahead, AsksWhetherToGoOn) {
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  EXPECT_EQ((OracleLookahead{.width = 2, .depth = 1}.best_sequence(a_trap())), Sequence{1});
+  EXPECT_EQ(asked, 3);
 }
 
 }  // namespace

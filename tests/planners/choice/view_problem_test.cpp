@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -225,6 +226,11 @@ TEST(TrueViewProblem, HasWhatTheViewsReallyShow) {
   const PlanningProblem problem = make_true_view_problem(room.input(SimpleGain{}), {});
   EXPECT_NEAR(gain_of(problem, 0), 500.0, 1e-2);
   EXPECT_EQ(gain_of(problem, 1), 0.0);
+  double unobserved = 0.0;
+  for (std::size_t cell = 0; cell < room.grid.size(); ++cell) {
+    unobserved += room.grid.state(cell) == CellState::unobserved ? 1.0 : 0.0;
+  }
+  EXPECT_EQ(std::accumulate(problem.cells.begin(), problem.cells.end(), 0.0), unobserved);
 }
 
 TEST(DrawnMap, IsOpaqueAsOftenAsBeamsAreStopped) {

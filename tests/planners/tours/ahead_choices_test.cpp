@@ -235,6 +235,13 @@ TEST(TwoLevelTour, NearViewsCoverTheShareThatIsAskedFor) {
 }
 
 /// 10 e^(-10 lambda) = 7 e^(-5 lambda) at lambda = ln(10 / 7) / 5 = 0.0713.
+/// The next decision would draw others.
+TEST(RecedingHorizon, DrawsNothingWhereThereIsNoChoice) {
+  Rng used(5), unused(5);
+  EXPECT_EQ(RecedingHorizon{}(on_a_line({1.0}, {1.0F}), used).order, test::Order{0});
+  EXPECT_EQ(used.next(), unused.next());
+}
+
 TEST(RecedingHorizon, DiscountsAGainByTheWayThere) {
   const PlanningProblem problem = on_a_line({10.0, -5.0}, {10.0F, 7.0F});
   for (std::uint64_t seed = 0; seed < 5; ++seed) {

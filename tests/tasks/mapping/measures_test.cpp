@@ -297,6 +297,15 @@ TEST(MappingMeasures, ReadEachNumberByItsKey) {
   }
 }
 
+TEST(MappingMeasures, TellWhetherABudgetWasKept) {
+  Json metrics = metrics_with({});
+  EXPECT_FALSE(scalar(metrics, "budget_kept")) << "there was none";
+  for (const bool kept : {true, false}) {
+    metrics["budget"] = {{"kept", kept}};
+    EXPECT_EQ(scalar(metrics, "budget_kept"), kept ? 1.0 : 0.0);
+  }
+}
+
 TEST(MappingMeasures, ReadEachScan) {
   const auto scan = [](double k) {
     return Json{{"unobserved_cells", 10.0 * k},

@@ -111,6 +111,11 @@ Scalar map_score(const MeasuredEpisode& episode, const char* key) {
   return value.is_null() ? Scalar{} : value.get<double>();
 }
 
+Scalar budget_kept(const MeasuredEpisode& episode) {
+  const Json budget = episode.metrics.value("budget", Json());
+  return budget.is_null() ? Scalar{} : Scalar(budget.at("kept").get<bool>() ? 1.0 : 0.0);
+}
+
 const auto kScalars = std::to_array<ScalarMeasure>({
     {{"area", "area under the curve of observable cells left, scans", Better::lower},
      [](const MeasuredEpisode& e) { return area_from(e, 1); }},
@@ -190,6 +195,10 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     {{"fallbacks", "views out of reach", Better::lower}, fallbacks},
     kPathLength,
     {{"energy_j", "energy used, J", Better::lower}, number<"energy_j">},
+    {{"budget_kept",
+      "1 if the episode kept its budget and came back where it had to, else 0; none without one",
+      Better::higher},
+     budget_kept},
     kCollisions,
     {{"precision", "precision of occupied cells", Better::higher},
      [](const MeasuredEpisode& e) { return map_score(e, "precision"); }},
