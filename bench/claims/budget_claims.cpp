@@ -17,15 +17,9 @@ namespace {
 Finding all_are_kept(const StudyTables& study) {
   return held("goal", "every budget is kept, and the robot is back at its start by then",
               [&]() -> Measured {
-                std::size_t kept = 0;
-                std::size_t all = 0;
-                for (const std::string& level : study.levels()) {
-                  for (const double one : study.values("budget_kept", kAllPanels, level)) {
-                    kept += one == 1.0 ? 1 : 0;
-                    ++all;
-                  }
-                }
-                return {fmt::format("in {} of {} episodes", kept, all), kept == all,
+                const std::vector<double> all = all_values(study, "budget_kept");
+                const auto kept = static_cast<std::size_t>(std::ranges::count(all, 1.0));
+                return {fmt::format("in {} of {} episodes", kept, all.size()), kept == all.size(),
                         "see `budget_kept` by episode"};
               });
 }

@@ -28,22 +28,6 @@ std::string by_building(const StudyTables& study, const std::string& table, doub
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-double least_of_all(const StudyTables& study, const std::string& table) {
-  double least = study.least(table, kAllPanels, study.reference());
-  for (const auto& level : study.levels()) {
-    least = std::min(least, study.least(table, kAllPanels, level));
-  }
-  return least;
-}
-
-double most_of_all(const StudyTables& study, const std::string& table) {
-  double most = study.most(table, kAllPanels, study.reference());
-  for (const auto& level : study.levels()) {
-    most = std::max(most, study.most(table, kAllPanels, level));
-  }
-  return most;
-}
-
 }  // namespace
 
 std::vector<Finding> building_findings(const StudyTables& study) {
@@ -52,14 +36,14 @@ std::vector<Finding> building_findings(const StudyTables& study) {
                "of the observable cells in every episode, where a room is a tenth",
                [&]() -> Measured {
                  return {by_building(study, "observed_share", 100.0, "{:.1f} %"),
-                         least_of_all(study, "observed_share") >= 0.95,
+                         std::ranges::min(all_values(study, "observed_share")) >= 0.95,
                          "see `observed_share` by building"};
                }),
           held("goal", "the pose of no scan in the map is off by more than 50 mm",
                [&]() -> Measured {
                  return {
                      by_building(study, "worst_pose_error_m", 1000.0, "{:.0f} mm"),
-                     most_of_all(study, "worst_pose_error_m") <= 0.05,
+                     std::ranges::max(all_values(study, "worst_pose_error_m")) <= 0.05,
                      "where both ends of a corridor of plain walls are out of the scanner's sight, "
                      "wheels alone tell how far the robot is along it; a run that doubts its map "
                      "ends as failed"};
@@ -67,7 +51,7 @@ std::vector<Finding> building_findings(const StudyTables& study) {
           held("goal", "precision of occupied cells at least 0.98",
                [&]() -> Measured {
                  return {by_building(study, "precision", 1.0, "{:.4f}"),
-                         least_of_all(study, "precision") >= 0.98, "see the poses"};
+                         std::ranges::min(all_values(study, "precision")) >= 0.98, "see the poses"};
                }),
           without_collision(study, "choice")};
 }

@@ -75,6 +75,14 @@ Finding adaptive_against_simple(const StudyTables& study, const std::vector<cons
       });
 }
 
+std::vector<double> all_values(const StudyTables& study, const std::string& table) {
+  std::vector<double> all;
+  for (const std::string& level : study.levels()) {
+    std::ranges::copy(study.values(table, kAllPanels, level), std::back_inserter(all));
+  }
+  return all;
+}
+
 Finding maps_are_right(const StudyTables& study) {
   constexpr double kMost_m = 0.05;
   constexpr double kLeast = 0.98;
@@ -84,13 +92,8 @@ Finding maps_are_right(const StudyTables& study) {
                   "cells have a precision of at least {}, in every episode",
                   1000.0 * kMost_m, kLeast),
       [&]() -> Measured {
-        std::vector<double> worst_m, precision;
-        for (const std::string& level : study.levels()) {
-          std::ranges::copy(study.values("worst_pose_error_m", kAllPanels, level),
-                            std::back_inserter(worst_m));
-          std::ranges::copy(study.values("precision", kAllPanels, level),
-                            std::back_inserter(precision));
-        }
+        const std::vector<double> worst_m = all_values(study, "worst_pose_error_m");
+        const std::vector<double> precision = all_values(study, "precision");
         const auto off = std::ranges::count_if(worst_m, [](double m) { return m > kMost_m; });
         const double least = *std::ranges::min_element(precision);
         return {fmt::format("{:.0f} mm at most, more than {:.0f} in {} of {} episodes; "
