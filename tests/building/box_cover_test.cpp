@@ -44,6 +44,17 @@ TEST(BoxCover, HoldsEverySolidCellAndNoOther) {
   }
 }
 
+/// The cell behind the end of a row is the first of the next one in memory.
+TEST(BoxCover, BoxesBeginWithinTheGrid) {
+  const FittedGrid grid = even_grid(3, 2, 2);
+  std::vector<std::uint8_t> solid(grid.size(), 0);
+  solid[grid.index(0, 1, 0)] = 1;
+  const auto boxes = cover_with_boxes(grid, solid);
+  ASSERT_EQ(boxes.size(), 1U);
+  EXPECT_EQ(boxes[0].first, (std::array{0, 1, 0}));
+  EXPECT_EQ(boxes[0].end, (std::array{1, 2, 1}));
+}
+
 TEST(BoxCover, ARoomIsFourWallsAndAFloor) {
   const FittedGrid grid = even_grid(20, 30, 12);
   std::vector<std::uint8_t> solid(grid.size(), 0);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
+#include <unistd.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -55,6 +56,15 @@ TEST(ViewFiles, AFolderThatIsNotThereIsNamed) {
   Rng rng(1);
   const ViewEntry entry{{"cup", "cup_1", 2, 1}, "/nonexistent/cup_1", 0.0};
   EXPECT_THROW(write_view(random_view(rng), entry), OutputError);
+}
+
+/// A pose is shorter than what is kept back before it is written.
+TEST(ViewFiles, OnAFullFileSystemAreErrors) {
+  if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "there is no /dev/full";
+  const support::TemporaryDirectory folder;
+  const ViewEntry entry{{"cup", "cup_1", 2, 1}, folder.path(), 0.5};
+  std::filesystem::create_symlink("/dev/full", entry.file("pose.txt"));
+  EXPECT_THROW(write_pose(entry), OutputError);
 }
 
 TEST(ViewFiles, DepthIsInWholeMillimetres) {

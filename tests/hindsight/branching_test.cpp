@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <atomic>
@@ -66,6 +67,7 @@ TEST_F(Branches, AreTheSameUpToTheDecisionAndNotAfterIt) {
 TEST_F(Branches, OfAllViewsAreWhatRunsBring) {
   const RecordedRun run = recorded({"candidates.yaw_offsets_rad=[0]"});  // ten views
   const auto decisions = branch_views(run, {.scans = {2, 3}, .all = true, .then = 1});
+  EXPECT_LE(::waitpid(-1, nullptr, WNOHANG), 0) << "a process was not waited for";
   ASSERT_EQ(decisions.size(), 2U);
   for (const BranchedDecision& decision : decisions) {
     ASSERT_EQ(decision.branches.size(), 10U);

@@ -125,6 +125,16 @@ TEST(PlaceMatch, TheGuessIsTurnedForWhatIsWorthIt) {
   EXPECT_NEAR(found_rad(5, 0.025), 0.0125, 1e-9);
 }
 
+/// A step to either side the point is in the row beside a wall.
+TEST(PlaceMatch, OfTwoTurnsThatFitAlikeTheClockwiseOneIsFound) {
+  Points place = Points::known_around();
+  place.add(4.0, 0.1);
+  place.add(4.0, -0.1);
+  Points now;
+  now.add(4.0, 0.0);
+  EXPECT_NEAR(search_pose(now.cloud, place.cloud, {}, {0.0, 0.0125}).yaw_rad, -0.0125, 1e-9);
+}
+
 /// Every second point would rather be to the left. Of more than 300 only the others are asked.
 TEST(PlaceMatch, ThreeHundredPointsAreEnough) {
   Points place = Points::known_around();

@@ -98,6 +98,16 @@ TEST_F(OctomapIo, CountsCellsOfPrunedLeaves) {
   EXPECT_TRUE(content.box.isApprox(frame.box()));
 }
 
+TEST_F(OctomapIo, ListsEveryCellOfAPrunedLeaf) {
+  GridFrame frame;
+  frame.min_corner_m = {-4.0, 0.0, 8.0};
+  frame.cells = {4, 4, 4};  // one leaf
+  OccupancyGrid grid(frame);
+  std::ranges::fill(grid.log_odds, 2.0F);
+  write_octomap(grid, directory_ / "map.bt");
+  expect_same_cells(grid, read_octomap(directory_ / "map.bt"));
+}
+
 TEST_F(OctomapIo, StatesAloneArePrunedWhateverTheLogOdds) {
   GridFrame frame;
   frame.cells = {16, 16, 16};

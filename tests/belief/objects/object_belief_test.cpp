@@ -413,6 +413,16 @@ TEST(MeanYaw, OfAPreferenceBelowABillionthIsZero) {
   EXPECT_NEAR(mean_rad(1.5e-9), kTurn / 4.0, 1e-3);
 }
 
+/// Its probability is less than any number but zero.
+TEST(MeanYaw, OfAnObjectThatIsHardlyPossibleIsThatOfItsPoses) {
+  const ObjectStates states = make_states({0, 0}, 8);
+  ObjectBelief belief{Eigen::VectorXd::Constant(16, -kBoundless)};
+  belief.log_p[0] = 0.0;
+  belief.log_p[states.state(1, 2)] = -1000.0;
+  EXPECT_NEAR(mean_yaw_rad(states, belief, 1), kTurn / 4.0, kTolerance);
+  EXPECT_EQ(mean_yaw_rad(states, belief, 0), 0.0);
+}
+
 TEST(EstimateOf, IsOfTheDatabaseWhereNothingCanBeUnknown) {
   const ObjectStates states = make_states({0, 1}, 2);
   const ObjectBelief belief = belief_of({0.1, 0.1, 0.3, 0.5});

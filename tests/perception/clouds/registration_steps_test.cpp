@@ -226,6 +226,14 @@ TEST_F(LineBeforeAWall, APriorThatIsSureIsKept) {
   EXPECT_NEAR(result.T_world_base.yaw_rad, 0.01, 1e-6);
 }
 
+TEST_F(LineBeforeAWall, APriorThatIsUnsureLeavesTheStepToTheWall) {
+  const auto result = register_with_prior(scan_, wall_, PosePrior{}, options_);
+  ASSERT_TRUE(result.converged) << result.reason;
+  EXPECT_NEAR(result.T_world_base.x_m, 0.01, 1e-5);
+  EXPECT_NEAR(result.T_world_base.y_m, 0.0, 1e-9);
+  EXPECT_NEAR(result.T_world_base.yaw_rad, -0.002, 1e-5);
+}
+
 /// Their strongest direction is worth 1.2 times the 61 pairs.
 TEST_F(LineBeforeAWall, IsRefusedWhereItSaysTooLittleOfEveryDirection) {
   options_.min_constraint_correspondences = 100.0;

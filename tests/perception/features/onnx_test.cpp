@@ -154,6 +154,17 @@ TEST(TrainedOnnx, ComponentsOfAnotherNetworkAreRefused) {
   EXPECT_EQ(why_not(4), "model: holds components of another network");
 }
 
+/// The network's weights are zero.
+TEST(TrainedOnnx, AnOutputOfZerosHasNoDirection) {
+  constexpr Eigen::Index outputs = Eigen::Index{224} * 224;
+  const Pca sum{Eigen::VectorXf::Zero(outputs), Eigen::MatrixXf::Ones(outputs, 1),
+                Eigen::VectorXf::Ones(1)};
+  const TrainedOnnx trained(OnnxNetwork(convolution_network(3), "zero.onnx"), sum);
+  ObjectView view = blank_view(224, 224);
+  std::ranges::fill(view.mask, 1);
+  EXPECT_EQ(trained.extract(view).skipped, "the network's output is zero or not finite");
+}
+
 /// Half as high, or as wide, as the square: of its 4 x 4 parts the two in the middle are filled.
 TEST(TrainedOnnx, TheObjectIsInTheMiddleOfTheSquare) {
   const Pca as_it_is{Eigen::VectorXf::Zero(48), Eigen::MatrixXf::Identity(48, 48),

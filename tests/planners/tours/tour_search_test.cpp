@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 
 #include "tests/planners/tours/small_problem.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
@@ -100,6 +101,27 @@ TEST(SearchTour, TakesAViewInThatSavesMoreThanRoundingMakes) {
   };
   EXPECT_EQ(order(0.8e-9), test::Order{1});
   EXPECT_EQ(order(1.5e-9), (test::Order{1, 0}));
+}
+
+/// After view 0 a 2^-24 is left of the block, of which view 1 shows a quarter. With view 1 in front
+/// rounding takes that back: the tour costs as much as without it, though not by the gains before.
+TEST(SearchTour, EndsWhereRoundingTakesBackWhatAViewAdds) {
+  PlanningProblem problem = two_views();
+  problem.cells = {1.0F};
+  problem.shows = {{{0}, {std::nextafter(1.0F, 0.0F)}}, {{0}, {0.25F}}};
+  problem.travel_s.setZero();
+  problem.scan_s = 0.0;
+  const double alone_s = tour_cost_s(problem, {}, test::Order{0});
+  ASSERT_GT(alone_s, 1e-5);
+  ASSERT_EQ(tour_cost_s(problem, {}, test::Order{0, 1}), 0.0);
+  ASSERT_EQ(tour_cost_s(problem, {}, test::Order{1, 0}), alone_s);
+  int asked = 0;
+  const StopPoll poll([&] {
+    if (++asked > 100) throw std::runtime_error("it goes on for ever");
+  });
+  const Tour tour = search_tour(problem, {}, {});
+  EXPECT_EQ(tour.order, test::Order{0});
+  EXPECT_EQ(tour.cost_s, alone_s);
 }
 
 /// Jobs without ways between them: the mean time is least by falling weight per time. [Smith1956]

@@ -65,6 +65,16 @@ TEST(ActiveDirection, IsTheUnusedOneNearestTheRemainingPath) {
   EXPECT_EQ(active_direction(object, path), std::nullopt);
 }
 
+TEST(ActiveDirection, MayBeAnyThatIsLeft) {
+  const Eigen::Matrix4Xd path = test::straight_flight().points;
+  for (int d = 0; d < kObservationDirections; ++d) {
+    ObservedObject object = half_metre_object_at(2.0, 1.5);
+    object.used.fill(true);
+    object.used[static_cast<std::size_t>(d)] = false;
+    EXPECT_EQ(active_direction(object, path), d);
+  }
+}
+
 TEST(ObservationTarget, IsTheActiveDirectionOfTheActiveObject) {
   const std::vector<ObservedObject> objects{half_metre_object_at(9.0, 1.5),
                                             half_metre_object_at(2.0, 1.5, 0.7)};
@@ -128,6 +138,20 @@ TEST(NearestOnPath, OfTwoPlacesIsTheFirst) {
   const OnPath between = nearest_on_path(path, {0.0, 1.0, 0.0});
   EXPECT_EQ(between.distance_m, 1.0);
   EXPECT_EQ(between.at, 0.0);
+}
+
+TEST(NearestOnPath, OfOneWaypointIsThatFromEverySide) {
+  Eigen::Matrix4Xd path(4, 1);
+  path.col(0) << 5.0, 6.0, 7.0, 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double away_m : {-10.0, 10.0}) {
+      const Eigen::Vector3d place =
+          Eigen::Vector3d(5.0, 6.0, 7.0) + away_m * Eigen::Vector3d::Unit(axis);
+      const OnPath nearest = nearest_on_path(path, place);
+      EXPECT_NEAR(nearest.distance_m, 10.0, 1e-12) << axis;
+      EXPECT_EQ(nearest.at, 0.0) << axis;
+    }
+  }
 }
 
 /// Two directions are left, the second one nearer the path by so much.

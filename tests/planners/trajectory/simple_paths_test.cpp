@@ -117,6 +117,17 @@ TEST(GreedyDetour, LeavesTheLastWaypointAndWhatLiesBeyondIt) {
   EXPECT_EQ(beyond.col(7).head<3>(), object_at(5.0, 0.9).ring.view_m(4));
 }
 
+TEST(GreedyDetour, LeavesTheFirstWaypointThoughAViewIsNearestIt) {
+  const Horizon flight = test::straight_flight();
+  std::vector<ObservedObject> objects{object_at(0.2, 1.8)};
+  objects[0].used.fill(true);
+  objects[0].used[6] = false;  // at (0.2, 0.5)
+  const auto detour = greedy_detour(flight, objects);
+  EXPECT_EQ(detour.col(0).head<3>(), flight.points.col(0).head<3>());
+  EXPECT_EQ(detour.col(1).head<3>(), objects[0].ring.view_m(6));
+  EXPECT_EQ(detour.col(2).head<3>(), flight.points.col(2).head<3>());
+}
+
 TEST(GreedyDetour, KeepsToThePathWhereNothingIsLeftToSee) {
   const Horizon flight = test::straight_flight();
   EXPECT_EQ(greedy_detour(flight, {}), flight.points);

@@ -15,6 +15,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/core/yaml.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/planners/views/sampled_views.hpp"
 
@@ -220,6 +221,17 @@ TEST_F(ScoreViews, RefusesASensorOrARegionOutOfRange) {
   const auto one = map({{{0, 0, 0}, 1, false}}, 0.1);
   EXPECT_THROW(score_views(one, {}, SimpleGain{}, {}, camera(-1.0), 1), ConfigError);
   EXPECT_THROW(score_views(one, {.coarsen = 0}, SimpleGain{}, {}, camera(1.0), 1), ConfigError);
+}
+
+TEST(ScoredRegion, HasCornersOfThreeNumbers) {
+  ScoredRegion region;
+  read_into(parse_yaml("min_m: [0.5, 0.25, 1.0]\nmax_m: [1.25, 1.5, 2.0]\n", "test"), region);
+  EXPECT_THAT(region.min_m, ::testing::Optional(::testing::ElementsAre(0.5, 0.25, 1.0)));
+  EXPECT_THAT(region.max_m, ::testing::Optional(::testing::ElementsAre(1.25, 1.5, 2.0)));
+  for (const char* text : {"min_m: [0.5, 0.25]", "min_m: [0.5, 0.25, 1.0, 2.0]",
+                           "max_m: [0.5, 0.25]", "max_m: [0.5, 0.25, 1.0, 2.0]"}) {
+    EXPECT_THROW(read_into(parse_yaml(text, "test"), region), ConfigError) << text;
+  }
 }
 
 /// Of eight cells of 0.25 m a side the view reaches into the five from the third on.

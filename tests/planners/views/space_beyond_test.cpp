@@ -133,6 +133,15 @@ TEST(SpaceBeyond, MeasuresTheWayAlongEitherAxis) {
   EXPECT_EQ(std::ranges::count(space_beyond(grid, places, 100.0).place_of, 0), 35);
 }
 
+/// Columns of 1 x 0.25 m. The first place is beside a column that the second one is nearer to, and
+/// is heard first.
+TEST(SpaceBeyond, GoesOnBehindAColumnThatAShorterWayWasFoundTo) {
+  const OccupancyGrid grid(make_grid_frame({2.0, 0.25, 0.5}, {4.0, 0.5, 1.0}, {4, 2, 2}));
+  const std::vector<Eigen::Vector2d> places{{0.5, 0.375}, {1.5, 0.125}};
+  EXPECT_EQ(space_beyond(grid, places, 100.0).place_of, (std::vector<std::int32_t>{0, 1, 1, 1,  //
+                                                                                   0, 1, 1, 1}));
+}
+
 /// Walls stand in the first and in the last column, nothing is known of the others.
 TEST(SpaceBeyond, NothingLeadsToColumnsBesideAWall) {
   OccupancyGrid grid(make_grid_frame({2.5, 2.0, 1.0}, {5.0, 4.0, 2.0}, {5, 4, 2}));

@@ -209,5 +209,26 @@ TEST(SampledSum, CellsWithoutWeightTakeNoPlaceInTheSample) {
   EXPECT_EQ(sum.estimate, 32.0);
 }
 
+/// Golden sections of the stride apart: so cells of neighbouring rows, which are alike, are neither
+/// all taken nor all left out.
+TEST(SampledSum, RowsStartAGoldenSectionApart) {
+  PartlySeen sample(100, 1);
+  for (int row = 0; row < 5; ++row) {
+    sample.offer(1, [](int) {
+      return PartlySeen::Cell{.cell = {0, 0, 0}, .visible = 0.5F, .weight = 1.0F};
+    });
+  }
+  std::vector<double> starts;
+  const SampledSum sum = sample.sum_errors(0.0, [&](const PartlySeen::Cell& cell) {
+    starts.push_back(static_cast<double>(cell.order) / (1 << 20));
+    return 1.0;
+  });
+  EXPECT_EQ(sum.estimate, 5.0);
+  ASSERT_EQ(starts.size(), 5U);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    EXPECT_NEAR(starts[i], std::fmod(0.6180339887 * static_cast<double>(i + 1), 1.0), 1e-5) << i;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -431,6 +431,35 @@ TEST(CalibrateUnknown, OfCategoriesOfOneObjectLearnsFromCategoriesAlone) {
   EXPECT_LT(std::abs(learnt.factors[0]->category), 1000.0);
 }
 
+/// The first video shows one object alone: without it none is left that a model of it has seen.
+TEST(CalibrateUnknown, LearnsFromViewsOfWhichNoOtherObjectWasSeen) {
+  Rng rng(9);
+  PointWorld world(rng);
+  world.states.objects.resize(3);
+  world.states.category_of = {0, 0, 0};
+  world.point = {{0.0, 0.0}, {10.0, 0.0}, {0.0, 10.0}};
+  RecognitionModel model;
+  model.states = world.states;
+  model.features.push_back({.name = "point", .statistics = empty_statistics(2, 3), .blobs = {}});
+  std::vector<ViewFeatures> views;
+  std::vector<int> shown;
+  for (const auto& [object, video] : {std::array{0, 1}, {0, 2}, {1, 2}, {2, 2}}) {
+    const auto k = static_cast<std::size_t>(object);
+    for (int i = 0; i < 20; ++i) {
+      ViewFeatures& view = views.emplace_back();
+      view.name = {.category = "c", .object = world.states.objects[k], .video = video, .frame = i};
+      view.features.push_back({PointWorld::seen(world.point[k], rng), {}});
+      shown.push_back(object);
+    }
+  }
+  const Calibration calibration =
+      hold_out(views, shown, model, {HeldOutVideos{}, ShrunkVariance{}, 1, true}, {});
+  const auto factors = calibrate_unknown(calibration, views, world.states, std::vector{1.0}, {});
+  ASSERT_TRUE(factors.at(0));
+  EXPECT_EQ(factors[0]->instance, factors[0]->category) << "no category can be left out";
+  EXPECT_LT(std::abs(factors[0]->instance), 1000.0);
+}
+
 /// At first all hang together, then all but one, which is less than half of them. Only what is
 /// more alike yet is left out with its twins then, so that all can be.
 TEST(CalibrateUnknown, LearnsFromHalfOfTheObjectsOrMore) {

@@ -167,6 +167,15 @@ TEST(SideBySide, IsTheRoomAtTheSizeOfItsPanel) {
   }
 }
 
+TEST(SideBySide, MixesThePixelsOfALargerRoom) {
+  cv::Mat left_rgb(2, 4, CV_8UC3, cv::Scalar());
+  for (const int x : {1, 3}) left_rgb.col(x).setTo(cv::Scalar(200, 100, 40));
+  const cv::Mat right_bgr(1, 2, CV_8UC3, cv::Scalar(1, 2, 3));
+  const cv::Mat both = side_by_side(left_rgb, right_bgr);
+  ASSERT_EQ(both.size(), cv::Size(4, 1));
+  for (const int x : {0, 1}) EXPECT_EQ(both.at<cv::Vec3b>(0, x), cv::Vec3b(20, 50, 100)) << x;
+}
+
 TEST_F(Video, AStillIsTheRoomBesideItsPanel) {
   const test::SceneFolder scene(kBall);
   const World world(scene.alone());

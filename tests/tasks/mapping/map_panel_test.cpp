@@ -330,6 +330,26 @@ TEST(MapPanel, HasAHeaderAndACardOfFigures) {
   EXPECT_TRUE(scan.y >= 18 && scan.br().y <= 41 && scan.br().y >= 34) << scan;
 }
 
+/// "scan 1 of 4": another number of scans is another last digit, which ends at 616 px.
+TEST(MapPanel, SaysOfHowManyScansItShowsWhich) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.observable_unobserved_cells = {1000.0};
+  const auto header = [&](int scans) {
+    input.scans_planned = scans;
+    return draw_map_panel(input, {640, 720})(cv::Rect(0, 0, 640, 60)).clone();
+  };
+  cv::Mat changed;
+  cv::absdiff(header(4), header(7), changed);
+  cv::Mat same_pixels;
+  cv::inRange(changed, cv::Scalar::all(0), cv::Scalar::all(0), same_pixels);
+  const cv::Mat differs = 255 - same_pixels;
+  const cv::Rect digit = cv::boundingRect(differs);
+  EXPECT_GT(digit.x, 590) << digit;
+  EXPECT_TRUE(digit.br().x > 605 && digit.br().x <= 618) << digit;
+}
+
 /// At twice the panel's resolution, as draw_map_panel() draws it.
 MapCamera camera_of_two_metres() {
   std::vector<Eigen::Vector3d> corners;

@@ -385,6 +385,28 @@ TEST(MappingRecorder, KeepsSinceWhichScanCellsAreOccupied) {
   EXPECT_EQ(lean[0].step, 1) << "it looks at the map at the end alone";
 }
 
+/// `simple` counts cells, `fsmi` bits.
+TEST(MappingRecorder, KeepsHowManyCellsViewsWereToShowIfTheGainCountsThem) {
+  StillTable& table = still_table();
+  const support::TemporaryDirectory folder;
+  const RunRequest request =
+      support::mapping_request(table.episode, {folder.path() / "run", true, false, {}, false});
+  const EpisodeRun run(request);
+  MappingRecorder recorder(run, recorded(table.robot), {}, 5);
+  std::vector<Candidate> views(2);
+  views[1].gain_bits = 12.5;
+  recorder.decision(views, 1, SimpleGain{});
+  recorder.decision(views, 1, FsmiGain{});
+  recorder.commit();
+  const CsvTable kept = read_csv(folder.path() / "run" / "candidates.csv");
+  const auto found = std::ranges::find(kept.columns, std::string("predicted_cells"));
+  ASSERT_NE(found, kept.columns.end());
+  const auto column = static_cast<std::size_t>(found - kept.columns.begin());
+  std::vector<std::string> cells;
+  for (const auto& row : kept.rows) cells.push_back(row.at(column));
+  EXPECT_EQ(cells, (std::vector<std::string>{"0", "12.5", "", ""}));
+}
+
 TEST(MappingParts, LeaveOutViewsThatCannotBePaid) {
   Tabletop task = still_table().task;
   task.budget.time_s = 100.0;

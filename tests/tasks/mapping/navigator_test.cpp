@@ -156,5 +156,30 @@ TEST(Navigator, StillGoesByPostsWhenLoopsHaveMadeItsMapAnew) {
   EXPECT_TRUE(navigator.reference_map().goes_by_posts());
 }
 
+/// Beams of a hall's scans go through the walls of the room that they are taken in; of the last of
+/// them only by the loops: it is tracked far away.
+TEST(LoopClosing, TakesLoopsByWhichLittleMoreGoesThroughWalls) {
+  const auto wants_correction = [](int halls) {
+    HallRobot robot;
+    LoopClosing loops({.close = true, .min_way_m = 0.9}, hall_registration(), {}, {});
+    for (int i = 0; i < 5 + halls; ++i) {
+      if (i == 5) {
+        robot.walls.clear();
+        test_plan::add_box(robot.walls, -9.0, -8.0, 9.0, 8.0);
+      }
+      const double way_m = 0.6 * std::min(i, 4);
+      const Pose2 tracked{i == 4 + halls ? 100.0 : way_m, 0.0, 0.0};
+      if (i > 0) loops.moved_to({way_m, 0.0, 0.0}, tracked);
+      loops.remember(robot.seen_from({way_m - 1.2, 0.0, 0.0}), 0.25, tracked);
+    }
+    EXPECT_GT(loops.graph().loops(), 0U);
+    EXPECT_GT(loops.disagreement_m(), 90.0);
+    EXPECT_GT(loops.contradicted_share(), 0.02);
+    return loops.wants_correction();
+  };
+  EXPECT_TRUE(wants_correction(4)) << "those of four scans instead of three";
+  EXPECT_FALSE(wants_correction(2)) << "of two instead of one";
+}
+
 }  // namespace
 }  // namespace vantage

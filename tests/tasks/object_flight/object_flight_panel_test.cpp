@@ -71,6 +71,12 @@ TEST(RecognitionPanel, ShowsTheProbabilityOfAChangeAndItsThreshold) {
   EXPECT_TRUE(is_coloured(panel, {392, 584}, panel::kCard));
 }
 
+TEST(RecognitionPanel, ShowsNoThresholdBeforeTheFirstView) {
+  const cv::Mat panel =
+      drawn({.observation_records = {}, .orbit = kOrbit, .expected = "mug_1", .threshold = 0.5});
+  EXPECT_EQ(count_coloured(panel, {12, 429, 386, 280}, panel::kAccent), 0);
+}
+
 TEST(RecognitionPanel, ListsTheMostProbableObjectsFirst) {
   RecognitionPanelInput input{.observation_records = {}, .orbit = kOrbit};
   input.objects = {"mug_1", "bowl_2", "cup_3"};

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "tests/support/synthetic_room.hpp"
@@ -12,7 +13,7 @@ namespace vantage {
 namespace {
 
 /// A table of 1.6 x 2 m that is 0.72 m high, with a box on it, seen from 1.25 m up.
-TabletopObservation wide_table_seen() {
+TabletopObservation wide_table_seen(double half_width_rad = 0.65) {
   support::SyntheticScene scene;
   scene.boxes = {support::box_at({1.0, 0.5, 0.7}, {1.6, 2.0, 0.04}),
                  support::box_at({1.0, 0.5, 0.77}, {0.1, 0.1, 0.1})};
@@ -20,8 +21,9 @@ TabletopObservation wide_table_seen() {
   observation.T_base_laser = make_pose({-0.6, 0.5, 1.25}, 0.0);
   RangeScan& scan = observation.scan;
   scan.tilt_rad = support::evenly_spaced(0.1, 0.65, 120);
-  scan.azimuth_rad = support::evenly_spaced(-0.65, 0.65, 121);
-  scan.field_of_view = {.half_width_rad = 0.65, .tilt_min_rad = 0.1, .tilt_max_rad = 0.65};
+  scan.azimuth_rad = support::evenly_spaced(-half_width_rad, half_width_rad, 121);
+  scan.field_of_view = {
+      .half_width_rad = half_width_rad, .tilt_min_rad = 0.1, .tilt_max_rad = 0.65};
   for (const double tilt_rad : scan.tilt_rad) {
     for (const double azimuth_rad : scan.azimuth_rad) {
       const double range_m = support::cast_ray(scene, observation.T_base_laser.translation(),
@@ -32,13 +34,17 @@ TabletopObservation wide_table_seen() {
   return observation;
 }
 
-/// Looked for in twice the map, 1 x 1.4 m.
-TEST(TabletopBelief, HasTheTableAndWhatStandsOnItFromOneScan) {
+/// It is looked for in twice the map, 1 x 1.4 m.
+Tabletop small_region() {
   Tabletop task;
   task.map.centre_m = {1.0, 0.5, 0.9};
   task.map.size_m = {0.5, 0.7, 0.5};
   task.map.cells = {17, 17, 9};
-  TabletopBelief belief({}, task);
+  return task;
+}
+
+TEST(TabletopBelief, HasTheTableAndWhatStandsOnItFromOneScan) {
+  TabletopBelief belief({}, small_region());
   const ReferenceMap no_walls{RegistrationOptions{}};
   const TabletopObservation seen = wide_table_seen();
   const BeliefUpdate update = belief.update(seen, no_walls, {});
@@ -60,6 +66,20 @@ TEST(TabletopBelief, HasTheTableAndWhatStandsOnItFromOneScan) {
   EXPECT_NEAR(static_cast<double>(belief.cloud().size()), 2.0 * static_cast<double>(once),
               0.1 * static_cast<double>(once))
       << "what was placed once is not placed again";
+}
+
+TEST(TabletopBelief, HasAsMuchOfTheTableAsAllScansHaveSeen) {
+  TabletopBelief belief({}, small_region());
+  const ReferenceMap no_walls{RegistrationOptions{}};
+  const auto left_end_m = [&] {
+    double most_m = -10.0;
+    for (const Eigen::Vector2d& corner : belief.table().hull) most_m = std::max(most_m, corner.y());
+    return most_m;
+  };
+  belief.update(wide_table_seen(0.2), no_walls, {});
+  EXPECT_LT(left_end_m(), 1.0);
+  belief.update(wide_table_seen(), no_walls, {});
+  EXPECT_NEAR(left_end_m(), 1.2, 0.08);
 }
 
 }  // namespace

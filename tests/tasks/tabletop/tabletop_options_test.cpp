@@ -24,7 +24,8 @@ TEST(TabletopOptions, ScanALinePerTick) {
   Tabletop task;
   EXPECT_EQ(complaint(task), "");
   task.laser.line_rate_hz = 20.0;
-  EXPECT_THAT(complaint(task), HasSubstr("laser.line_rate_hz: 20 must be 1 / "));
+  EXPECT_THAT(complaint(task), HasSubstr("laser.line_rate_hz: 20 must be 1 / "
+                                         "simulation.control_period_s = 40: a line per tick"));
   EpisodeOptions slow;
   slow.simulation.control_period_s = 0.05;
   EXPECT_EQ(complaint(task, slow), "");

@@ -137,5 +137,18 @@ TEST(UnwrappedHorizon, GoesTheShortWayRound) {
   EXPECT_NEAR(smooth.after[3], 2.0 * M_PI, 1e-12);
 }
 
+/// Nearly half a turn either way: from another yaw than the last the short way would be the other.
+TEST(UnwrappedHorizon, TheOneAfterFollowsTheLast) {
+  for (const double yaw : {0.0, 1.5, 3.0}) {
+    for (const double turn : {3.0, -3.0}) {
+      Horizon horizon = test::straight_flight(3);
+      horizon.before[3] = yaw;
+      horizon.points.row(3).setConstant(yaw);
+      horizon.after[3] = yaw + turn;
+      EXPECT_NEAR(unwrapped(horizon).after[3], yaw + turn, 1e-12) << yaw << " " << turn;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage
