@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/tasks/object_flight/scripted_flight.hpp"
+#include "vantage/tasks/object_flight/object_flight_metrics.hpp"
 #include "vantage/tasks/object_flight/object_flight_parts.hpp"
 
 namespace vantage {
