@@ -10,6 +10,7 @@
 #include <string>
 
 #include "bench/claims/recognition_claims.hpp"
+#include "tests/support/csv_column.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
@@ -261,10 +262,10 @@ TEST(OfficeClaims, TheWayIsThatToTheSameShare) {
 TEST(TabletopClaims, AnOracleIsNoBoundWhereItIsBeaten) {
   const fs::path study = kRoot / "assets/studies/tabletop.yaml";
   CsvTable results = invented_results(study);
-  const auto area = std::ranges::find(results.columns, "area") - results.columns.begin();
+  const std::size_t area = support::column_index(results, "area");
   for (auto& row : results.rows) {
     const bool worse = row[0].ends_with("/oracle") && row[0].starts_with("report_4/");
-    row[static_cast<std::size_t>(area)] = worse ? "3" : row[0].ends_with("/simple") ? "2" : "1";
+    row[area] = worse ? "3" : row[0].ends_with("/simple") ? "2" : "1";
   }
   for (const Finding& finding : tabletop_findings(StudyTables(study, results))) {
     if (finding.claim.find("is ahead of `simple`") == std::string::npos) continue;
@@ -326,10 +327,9 @@ TEST(OfficeClaims, ForecastsAreHeldOfficeByOfficeAndDistanceByDistance) {
 Verdict contacts(const Case& flights, const std::string& method) {
   const fs::path study = kRoot / "assets/studies" / (std::string(flights.study) + ".yaml");
   CsvTable results = invented_results(study);
-  const auto column = std::ranges::find(results.columns, "collisions") - results.columns.begin();
+  const std::size_t column = support::column_index(results, "collisions");
   for (auto& row : results.rows) {
-    row[static_cast<std::size_t>(column)] =
-        row[0].find("/" + method) != std::string::npos ? "1" : "0";
+    row[column] = row[0].find("/" + method) != std::string::npos ? "1" : "0";
   }
   for (const Finding& finding : flights.hold(StudyTables(study, results))) {
     if (finding.claim.starts_with("no contact with anything")) return finding.verdict;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <cmath>
 
@@ -27,6 +28,18 @@ inline bool is_coloured(const cv::Mat& image, cv::Point at, const cv::Scalar& bg
 /// On a card.
 inline bool is_written(const cv::Mat& panel, const cv::Rect& part) {
   return count_coloured(panel, part, panel::kCard) < part.area();
+}
+
+/// Holds all pixels of a part that differ by more than `tolerance` in a channel; in those of the
+/// part.
+inline cv::Rect box_of_changes(const cv::Mat& a, const cv::Mat& b, const cv::Rect& part,
+                               double tolerance = 0.0) {
+  cv::Mat changed;
+  cv::absdiff(a(part), b(part), changed);
+  cv::Mat same;
+  cv::inRange(changed, cv::Scalar::all(0), cv::Scalar::all(tolerance), same);
+  const cv::Mat differs = 255 - same;
+  return cv::boundingRect(differs) + part.tl();
 }
 
 /// Of the pixels of that colour that are no farther than `reach_px` along either axis.

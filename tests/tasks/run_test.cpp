@@ -14,6 +14,7 @@
 #include <fstream>
 #include <set>
 
+#include "tests/support/csv_column.hpp"
 #include "tests/support/overrides.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/undescribed.hpp"
@@ -92,10 +93,6 @@ TEST_F(Run, PathLengthIsATotalAndScansCountFromOne) {
   EXPECT_EQ(steps.rows[1][1], "2");
 }
 
-std::size_t column(const CsvTable& table, const std::string& name) {
-  return static_cast<std::size_t>(std::ranges::find(table.columns, name) - table.columns.begin());
-}
-
 TEST_F(Run, KeepsWhatEachDecisionWasMadeAmong) {
   const CsvTable table = read_csv(folder_ / "first" / "candidates.csv");
   EXPECT_EQ(table.columns, (std::vector<std::string>{"decision", "candidate", "x_m", "y_m", "z_m",
@@ -107,7 +104,7 @@ TEST_F(Run, KeepsWhatEachDecisionWasMadeAmong) {
   ASSERT_NE(chosen, table.rows.end());
   EXPECT_EQ(std::ranges::count(table.rows, "1", [](const auto& row) { return row.back(); }), 1);
   const CsvTable steps = read_csv(folder_ / "first" / "steps.csv");
-  EXPECT_EQ((*chosen)[1], steps.rows[1][column(steps, "chosen_view")]);
+  EXPECT_EQ((*chosen)[1], steps.rows[1][support::column_index(steps, "chosen_view")]);
   for (const auto& row : table.rows) {
     EXPECT_EQ(row[0], "1");
     EXPECT_EQ(row[8], "bits");
@@ -116,8 +113,8 @@ TEST_F(Run, KeepsWhatEachDecisionWasMadeAmong) {
   }
   EXPECT_GT(std::stod((*chosen)[10]), 0.01);
   for (const char* axis : {"x_m", "y_m", "z_m", "yaw_rad"}) {
-    EXPECT_NEAR(std::stod(steps.rows[1][column(steps, axis)]),
-                std::stod((*chosen)[column(table, axis)]), 0.1)
+    EXPECT_NEAR(std::stod(steps.rows[1][support::column_index(steps, axis)]),
+                std::stod((*chosen)[support::column_index(table, axis)]), 0.1)
         << axis;
   }
 }

@@ -286,6 +286,8 @@ TEST(MapPanel, PlotsTheCellsLeftAfterEachScan) {
   EXPECT_LT(off_by(plotted({1000.0, 500.0}), {200, 650}, under), 3.0);
 }
 
+const cv::Rect kHeader(0, 0, 640, 60);
+
 TEST(MapPanel, HasAHeaderAndACardOfFigures) {
   const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
   MapPanelInput input;
@@ -315,12 +317,7 @@ TEST(MapPanel, HasAHeaderAndACardOfFigures) {
   const auto changed_by = [&](const char* method, int scans) {
     input.method = method;
     input.scans_planned = scans;
-    cv::Mat same_pixels;
-    cv::Mat changed;
-    cv::absdiff(image, draw_map_panel(input, {640, 720}), changed);
-    cv::inRange(changed, cv::Scalar::all(0), cv::Scalar::all(0), same_pixels);
-    const cv::Mat header = 255 - same_pixels(cv::Rect(0, 0, 640, 60));
-    return cv::boundingRect(header);
+    return support::box_of_changes(image, draw_map_panel(input, {640, 720}), kHeader);
   };
   const cv::Rect method = changed_by("adaptive", 0);
   EXPECT_TRUE(method.x >= 86 && method.x <= 93 && method.br().x <= 200) << method;
@@ -336,16 +333,11 @@ TEST(MapPanel, SaysOfHowManyScansItShowsWhich) {
   MapPanelInput input;
   input.grid = &grid;
   input.observable_unobserved_cells = {1000.0};
-  const auto header = [&](int scans) {
+  const auto drawn_of = [&](int scans) {
     input.scans_planned = scans;
-    return draw_map_panel(input, {640, 720})(cv::Rect(0, 0, 640, 60)).clone();
+    return draw_map_panel(input, {640, 720});
   };
-  cv::Mat changed;
-  cv::absdiff(header(4), header(7), changed);
-  cv::Mat same_pixels;
-  cv::inRange(changed, cv::Scalar::all(0), cv::Scalar::all(0), same_pixels);
-  const cv::Mat differs = 255 - same_pixels;
-  const cv::Rect digit = cv::boundingRect(differs);
+  const cv::Rect digit = support::box_of_changes(drawn_of(4), drawn_of(7), kHeader);
   EXPECT_GT(digit.x, 590) << digit;
   EXPECT_TRUE(digit.br().x > 605 && digit.br().x <= 618) << digit;
 }

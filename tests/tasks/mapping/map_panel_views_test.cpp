@@ -55,12 +55,7 @@ class MapPanelViews : public testing::Test {
   /// The rectangle that holds all differences of two images in a part of them.
   static void expect_changed(const cv::Mat& a, const cv::Mat& b, const cv::Rect& part,
                              const Eigen::AlignedBox2d& expected) {
-    cv::Mat changed;
-    cv::absdiff(a, b, changed);
-    cv::Mat same;
-    cv::inRange(changed(part), cv::Scalar::all(0), cv::Scalar::all(8), same);
-    const cv::Mat differs = 255 - same;
-    const cv::Rect found = cv::boundingRect(differs) + part.tl();
+    const cv::Rect found = support::box_of_changes(a, b, part, 8.0);
     constexpr double kStroke_px = 3.0;
     EXPECT_NEAR(found.x, expected.min().x(), kStroke_px) << found;
     EXPECT_NEAR(found.y, expected.min().y(), kStroke_px) << found;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/csv_column.hpp"
 #include "tests/support/terminal.hpp"
 #include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/mapping/still_table.hpp"
@@ -399,9 +400,7 @@ TEST(MappingRecorder, KeepsHowManyCellsViewsWereToShowIfTheGainCountsThem) {
   recorder.decision(views, 1, FsmiGain{});
   recorder.commit();
   const CsvTable kept = read_csv(folder.path() / "run" / "candidates.csv");
-  const auto found = std::ranges::find(kept.columns, std::string("predicted_cells"));
-  ASSERT_NE(found, kept.columns.end());
-  const auto column = static_cast<std::size_t>(found - kept.columns.begin());
+  const std::size_t column = support::column_index(kept, "predicted_cells");
   std::vector<std::string> cells;
   for (const auto& row : kept.rows) cells.push_back(row.at(column));
   EXPECT_EQ(cells, (std::vector<std::string>{"0", "12.5", "", ""}));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/csv_column.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -43,8 +44,7 @@ class Plans : public testing::Test {
     return made ? folder / "run" : fs::path();
   }
   static std::string field(const CsvTable& table, std::size_t row, std::string_view name) {
-    const auto column = std::ranges::find(table.columns, name) - table.columns.begin();
-    return table.rows.at(row).at(static_cast<std::size_t>(column));
+    return table.rows.at(row).at(support::column_index(table, name));
   }
 
   support::TemporaryDirectory folder_;

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstddef>
 
 #include "tests/support/synthetic_room.hpp"
@@ -43,6 +42,12 @@ Tabletop small_region() {
   return task;
 }
 
+Eigen::AlignedBox2d extent_of_table(const TabletopBelief& belief) {
+  Eigen::AlignedBox2d extent;
+  for (const Eigen::Vector2d& corner : belief.table().hull) extent.extend(corner);
+  return extent;
+}
+
 TEST(TabletopBelief, HasTheTableAndWhatStandsOnItFromOneScan) {
   TabletopBelief belief({}, small_region());
   const ReferenceMap no_walls{RegistrationOptions{}};
@@ -50,8 +55,7 @@ TEST(TabletopBelief, HasTheTableAndWhatStandsOnItFromOneScan) {
   const BeliefUpdate update = belief.update(seen, no_walls, {});
   EXPECT_TRUE(update.registered);
   EXPECT_GT(update.freed_cells, 0U);
-  Eigen::AlignedBox2d table;
-  for (const Eigen::Vector2d& corner : belief.table().hull) table.extend(corner);
+  const Eigen::AlignedBox2d table = extent_of_table(belief);
   EXPECT_NEAR(table.min().x(), 0.5, 0.06);
   EXPECT_NEAR(table.max().x(), 1.5, 0.06);
   EXPECT_NEAR(table.min().y(), -0.2, 0.06);
@@ -71,15 +75,10 @@ TEST(TabletopBelief, HasTheTableAndWhatStandsOnItFromOneScan) {
 TEST(TabletopBelief, HasAsMuchOfTheTableAsAllScansHaveSeen) {
   TabletopBelief belief({}, small_region());
   const ReferenceMap no_walls{RegistrationOptions{}};
-  const auto left_end_m = [&] {
-    double most_m = -10.0;
-    for (const Eigen::Vector2d& corner : belief.table().hull) most_m = std::max(most_m, corner.y());
-    return most_m;
-  };
   belief.update(wide_table_seen(0.2), no_walls, {});
-  EXPECT_LT(left_end_m(), 1.0);
+  EXPECT_LT(extent_of_table(belief).max().y(), 1.0);
   belief.update(wide_table_seen(), no_walls, {});
-  EXPECT_NEAR(left_end_m(), 1.2, 0.08);
+  EXPECT_NEAR(extent_of_table(belief).max().y(), 1.2, 0.08);
 }
 
 }  // namespace
