@@ -69,5 +69,9 @@ std::vector<Finding> budget_findings(const StudyTables& study);
 /// Of buildings with narrow doors and loops: the goals of this project.
 std::vector<Finding> building_findings(const StudyTables& study);
 std::vector<Finding> trajectory_findings(const StudyTables& study);
+/// Of robots with faults.
+std::vector<Finding> mapping_fault_findings(const StudyTables& study);
+std::vector<Finding> recognition_fault_findings(const StudyTables& study);
+std::vector<Finding> trajectory_fault_findings(const StudyTables& study);
 
 }  // namespace vantage::bench

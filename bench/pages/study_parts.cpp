@@ -78,7 +78,27 @@ const std::vector<StudyPart>& study_parts() {
        {"accuracy", "observations", "mean_entropy_observed_nats", "objects_unseen",
         "mean_entropy_nats", "flight_time_s", "path_length_m", "minimum_clearance_m", "collided",
         "tracking_error_m", "replan_time_s", "energy_j"},
-       trajectory_findings}};
+       trajectory_findings},
+      {"faults_tabletop",
+       "Faults of a robot at worktops",
+       {"observed_share", "area", "precision", "recall", "pose_error_m", "path_length_m",
+        "collisions"},
+       mapping_fault_findings},
+      {"faults_office",
+       "Faults of a robot that explores small offices",
+       {"observed_share", "area", "scans", "precision", "recall", "worst_pose_error_m",
+        "path_length_m", "collisions"},
+       mapping_fault_findings},
+      {"faults_recognition",
+       "Faults of a quadrotor that recognises an object",
+       {"correct", "category_correct", "map_probability", "entropy_bits", "views",
+        "view_position_error_m", "simulated_time_s", "collisions"},
+       recognition_fault_findings},
+      {"faults_trajectory",
+       "Faults of a quadrotor along a path",
+       {"accuracy", "observations", "objects_found", "false_objects", "mean_entropy_nats",
+        "minimum_clearance_m", "tracking_error_m", "flight_time_s", "collisions"},
+       trajectory_fault_findings}};
   return parts;
 }
 

@@ -211,7 +211,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"buildings", building_findings},
         Case{"recognition_flight", flight_recognition_findings},
         Case{"recognition_clutter", clutter_findings},
-        Case{"change_flight", flight_change_findings}, Case{"trajectory", trajectory_findings}),
+        Case{"change_flight", flight_change_findings}, Case{"trajectory", trajectory_findings},
+        Case{"faults_tabletop", mapping_fault_findings},
+        Case{"faults_office", mapping_fault_findings},
+        Case{"faults_recognition", recognition_fault_findings},
+        Case{"faults_trajectory", trajectory_fault_findings}),
     [](const auto& info) { return std::string(info.param.study); });
 
 /// What is held of `tour` against the oracle, where both take as long but the oracle does not get
