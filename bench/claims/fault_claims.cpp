@@ -63,7 +63,7 @@ Finding nobody_is_sure_and_wrong(const StudyTables& study) {
                 const std::vector<double> sure = all_values(study, "map_probability");
                 std::size_t wrong = 0;
                 for (std::size_t i = 0; i < correct.size(); ++i) {
-                  wrong += correct[i] == 0.0 && sure[i] >= kSureOfObject ? 1 : 0;
+                  wrong += correct[i] != 1.0 && sure[i] >= kSureOfObject ? 1 : 0;
                 }
                 return {fmt::format("{} of {} flights", wrong, correct.size()), wrong == 0,
                         "see `map_probability` by episode"};
