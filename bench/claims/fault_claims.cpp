@@ -24,11 +24,12 @@ Finding most_is_kept(const StudyTables& study, const char* table, const char* wh
       fmt::format("under each fault at least {:.2f} of what {} without one {}", kKept, what, what),
       [&]() -> Measured {
         std::vector<std::string> parts;
+        const double wanted = kKept * study.mean(table, kAllPanels, study.reference());
         bool kept = true;
         for (const std::string& level : study.levels()) {
           const double with_it = study.mean(table, kAllPanels, level);
           parts.push_back(fmt::format("{} {:.1f} %", level, 100.0 * with_it));
-          kept = kept && with_it >= kKept * study.mean(table, kAllPanels, study.reference());
+          kept = kept && with_it >= wanted;
         }
         return {fmt::format("{}", fmt::join(parts, ", ")), kept,
                 "docs/decisions/faults.md tells which fault costs what"};
@@ -46,8 +47,7 @@ Finding maps_stay_true(const StudyTables& study) {
         std::string of = study.reference();
         for (const std::string& level : study.levels()) {
           if (level == "moved_object") continue;
-          const std::vector<double> precision = study.values("precision", kAllPanels, level);
-          const double lowest = *std::ranges::min_element(precision);
+          const double lowest = study.least("precision", kAllPanels, level);
           if (lowest < least) of = level;
           least = std::min(least, lowest);
         }
