@@ -120,23 +120,30 @@ std::vector<std::string> StudyTables::groups() const {
   return names.empty() ? std::vector<std::string>{kAllPanels} : names;
 }
 
+std::optional<double> StudyTables::value_of(const Episode& episode, const std::string& name) const {
+  const std::size_t column = place_of(results_.columns, name);
+  if (episode.row == nullptr || column == results_.columns.size()) return {};
+  return value_in(*episode.row, column);
+}
+
+bool StudyTables::has_failed(const Episode& episode) const {
+  return episode.row != nullptr &&
+         episode.row->at(place_of(results_.columns, "status")) == "failed";
+}
+
 std::string StudyTables::extent() const {
   const auto run =
       std::ranges::count_if(episodes_, [](const Episode& e) { return e.row != nullptr; });
-  const std::size_t states = place_of(results_.columns, "status");
-  const auto failed = std::ranges::count_if(episodes_, [&](const Episode& e) {
-    return e.row != nullptr && e.row->at(states) == "failed";
-  });
+  const auto failed =
+      std::ranges::count_if(episodes_, [this](const Episode& e) { return has_failed(e); });
   return fmt::format("{} of {} episodes{}", run, episodes_.size(),
                      failed > 0 ? fmt::format(", {} failed", failed) : "");
 }
 
 StudyTables::Table StudyTables::scalar_table(const std::string& name) const {
-  const std::size_t column = place_of(results_.columns, name);
   Table table{levels(), place_of(levels(), reference()), {}};
   for (const Episode& episode : episodes_) {
-    if (episode.row == nullptr || column == results_.columns.size()) continue;
-    const auto value = value_in(*episode.row, column);
+    const auto value = value_of(episode, name);
     if (value) table.samples.push_back(sample_at(episode.place, episode.place.level, *value));
   }
   return table;
@@ -209,29 +216,6 @@ std::vector<Sample> StudyTables::whole_samples(const std::string& name, const st
   if (count == 0 || found.size() < count) {
     throw NotRun(fmt::format("`{}` of `{}` in {}: {} of {} episodes", name, level, panel,
                              found.size(), count));
-  }
-  return found;
-}
-
-std::vector<Sample> StudyTables::arrivals(const std::string& name, const std::string& panel,
-                                          const std::string& level) const {
-  for (const Episode& e : episodes_) {
-    if (e.row != nullptr || !is_of(e, panel, level_of(name, level))) continue;
-    throw NotRun(fmt::format("`{}` of `{}`: {} is not run", name, level, e.name));
-  }
-  return samples(name, panel, level);
-}
-
-std::vector<Sample> StudyTables::whether_arrived(const std::string& name, const std::string& panel,
-                                                 const std::string& level) const {
-  const std::size_t column = place_of(results_.columns, name);
-  const std::size_t wanted = level_of(name, level);
-  std::vector<Sample> found;
-  for (const Episode& e : episodes_) {
-    if (!is_of(e, panel, wanted)) continue;
-    const bool arrived = e.row != nullptr && column < results_.columns.size() &&
-                         value_in(*e.row, column).has_value();
-    found.push_back(sample_at(e.place, wanted, arrived ? 1.0 : 0.0));
   }
   return found;
 }

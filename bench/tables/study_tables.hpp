@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -67,6 +68,11 @@ class StudyTables {
   /// Of each episode, in the order of the plan.
   [[nodiscard]] std::vector<double> values(const std::string& table, const std::string& panel,
                                            const std::string& level) const;
+  /// The same, where one that failed before there was a value counts as `of_failed`.
+  [[nodiscard]] std::vector<double> values(const std::string& table, const std::string& panel,
+                                           const std::string& level, double of_failed) const;
+  [[nodiscard]] double mean(const std::string& table, const std::string& panel,
+                            const std::string& level, double of_failed) const;
   /// To the reference level, of the same episodes but for the level; that has none to itself.
   [[nodiscard]] Difference difference(const std::string& table, const std::string& panel,
                                       const std::string& level) const;
@@ -125,6 +131,11 @@ class StudyTables {
   [[nodiscard]] Table predictor_table() const;
   [[nodiscard]] bool is_of(const Episode& episode, const std::string& panel,
                            std::size_t level) const;
+  /// Of a column; none: it was not run, or came to no number.
+  [[nodiscard]] std::optional<double> value_of(const Episode& episode,
+                                               const std::string& column) const;
+  /// It was run, to no good end.
+  [[nodiscard]] bool has_failed(const Episode& episode) const;
   [[nodiscard]] std::size_t planned(const std::string& panel, std::size_t level) const;
   /// As many as there are.
   [[nodiscard]] std::vector<Sample> samples(const std::string& table, const std::string& panel,

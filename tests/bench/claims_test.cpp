@@ -87,6 +87,7 @@ bool is_asked_for(const std::string& column) {
                                "hidden_views",
                                "precision",
                                "worst_pose_error_m",
+                               "map_in_doubt",
                                "budget_kept"};
   return column.starts_with("prediction_error_") || column.starts_with("forecast_ratio") ||
          std::ranges::find(kTables, column) != kTables.end();
@@ -232,6 +233,27 @@ Finding near_oracle_without(std::string_view scenes) {
     if (finding.claim.find("oracle_tour") != std::string::npos) return finding;
   }
   return {};
+}
+
+/// What is held of a lost pose, where one episode is so far off and doubts its map or does not.
+Verdict of_lost_pose(const char* worst_m, const char* in_doubt) {
+  const fs::path study = kRoot / "assets/studies/faults_tabletop.yaml";
+  CsvTable results = invented_results(study);
+  const std::size_t worst = support::column_index(results, "worst_pose_error_m");
+  const std::size_t doubt = support::column_index(results, "map_in_doubt");
+  for (auto& row : results.rows) {
+    const bool it = &row == &results.rows.back();
+    row[worst] = it ? worst_m : "0.01";
+    row[doubt] = it ? in_doubt : "0";
+  }
+  return mapping_fault_findings(StudyTables(study, results)).at(2).verdict;
+}
+
+TEST(FaultClaims, AMapWithALostPoseSaysSo) {
+  EXPECT_EQ(of_lost_pose("0.05", "0"), Verdict::yes);
+  EXPECT_EQ(of_lost_pose("0.06", "0"), Verdict::no);
+  EXPECT_EQ(of_lost_pose("0.06", "1"), Verdict::yes);
+  EXPECT_EQ(of_lost_pose("0.01", "1"), Verdict::yes) << "too careful is no lie";
 }
 
 TEST(PlanningClaims, AnOracleThatGetsThereLessOftenIsNothingToBeNearTo) {

@@ -48,6 +48,19 @@ TEST_F(Tables, MeansAndPairs) {
   EXPECT_THROW((void)study.ratio("area", "all", "old"), NotRun) << "the reference itself";
 }
 
+TEST_F(Tables, OneThatFailedBeforeItCameToAValueMayCountAsSomething) {
+  EXPECT_THAT(tables().values("area", "a", "old", 9.0), testing::ElementsAre(4.0, 6.0));
+  results_.rows[0] = {"a/n/old", "failed", ""};
+  results_.rows[2][1] = "failed";  // with a value
+  EXPECT_THAT(tables().values("area", "a", "old", 9.0), testing::ElementsAre(9.0, 6.0));
+  EXPECT_THROW((void)tables().values("area", "a", "old"), NotRun) << "that is not to be a mean";
+  EXPECT_THROW((void)tables().values("height", "a", "old", 9.0), NotRun) << "no such table";
+  results_.rows[0][1] = "completed";
+  EXPECT_THROW((void)tables().values("area", "a", "old", 9.0), NotRun) << "its value is lost";
+  results_.rows.erase(results_.rows.begin());
+  EXPECT_THROW((void)tables().values("area", "a", "old", 9.0), NotRun) << "it was not run";
+}
+
 TEST_F(Tables, AMissingEpisodeTakesWhatItIsPartOf) {
   results_.rows.erase(results_.rows.begin());  // a/n/old
   const StudyTables study = tables();

@@ -28,7 +28,8 @@ TEST(TaskOptions, OfAllThatMap) {
                                         {"distance_band_m", 0.5, between(0.05, 100.0)}});
   expect_own_numbers(LocalisationOptions{}, {{"tolerance_cells", 4.0, above(0.0)},
                                              {"accept_drift", 0},
-                                             {"max_contradicted", 0.06, between(0.0, 1.0)}});
+                                             {"max_contradicted", 0.06, between(0.0, 1.0)},
+                                             {"max_unregistered", 0.2, between(0.0, 1.0)}});
   expect_own_numbers(
       BudgetOptions{},
       {{"time_s", kNull, above(0.0)}, {"energy_j", kNull, above(0.0)}, {"return_to_start", 0}});

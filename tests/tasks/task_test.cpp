@@ -292,8 +292,9 @@ TEST(Tasks, ATableTopHasTheKeysOfItsParts) {
   for (const KeyDescription& key : describe_episode(Tabletop{})) keys.insert(key.key);
   for (const char* key :
        {"budget.energy_j", "budget.return_to_start", "budget.time_s", "localisation.accept_drift",
-        "localisation.loops.close", "localisation.max_contradicted", "localisation.tolerance_cells",
-        "map.cells", "map.centre_m", "map.size_m", "metrics.distance_band_m", "metrics.predictors",
+        "localisation.loops.close", "localisation.max_contradicted",
+        "localisation.max_unregistered", "localisation.tolerance_cells", "map.cells",
+        "map.centre_m", "map.size_m", "metrics.distance_band_m", "metrics.predictors",
         "metrics.tolerance_cells"}) {
     EXPECT_TRUE(keys.contains(key)) << key;
   }

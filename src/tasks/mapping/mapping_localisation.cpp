@@ -18,6 +18,33 @@ std::vector<ScanRecord*> pointers_to(std::vector<ScanRecord>& scans) {
   return pointers;
 }
 
+/// Why the map is in doubt; empty if it is not.
+std::string doubt_of(const LocalisationSummary& found, std::span<const ScanRecord> scans,
+                     const MappingOptions& options) {
+  const LocalisationOptions& limits = options.localisation;
+  const auto lost = std::ranges::count(scans, false, &ScanRecord::registered);
+  const double contradicted = found.contradicted_share.value_or(0.0);
+  if (static_cast<double>(lost) > limits.max_unregistered * static_cast<double>(scans.size())) {
+    return fmt::format(
+        "the map is in doubt: {} of {} scans fit nowhere near where the wheels say, which may have "
+        "slipped (localisation.max_unregistered)",
+        lost, scans.size());
+  }
+  if (contradicted > limits.max_contradicted) {
+    return fmt::format(
+        "the map is in doubt: {:.1f} % of the beams go through walls of it, walls may be drawn "
+        "twice (localisation.max_contradicted)",
+        100.0 * contradicted);
+  }
+  if (found.pose_sigma_m > map_tolerance_m(options)) {
+    return fmt::format(
+        "the map is in doubt: by what the scans say of each other a pose is known to {:.2f} m, and "
+        "no loop says better (localisation.tolerance_cells)",
+        found.pose_sigma_m);
+  }
+  return {};
+}
+
 }  // namespace
 
 void MappingParts::correct_records(const PoseCorrection& correction, const Pose& T_base_sensor,
@@ -81,23 +108,13 @@ LocalisationSummary MappingParts::localisation() {
     summary.pose_sigma_m = std::max(summary.pose_sigma_m, scan.pose_sigma_m);
   }
   const LoopClosing* loops = navigator_.loops();
-  if (loops == nullptr) return summary;
-  summary.loops = loops->graph().loops();
-  summary.loops_refused = loops->graph().refused();
-  summary.corrections = loops->corrections();
-  summary.contradicted_share = loops->contradicted_share();
-  const double tolerance_m = map_tolerance_m(options_);
-  if (*summary.contradicted_share > options_.localisation.max_contradicted) {
-    summary.doubt = fmt::format(
-        "the map is in doubt: {:.1f} % of the beams go through walls of it, walls may be drawn "
-        "twice (localisation.max_contradicted)",
-        100.0 * *summary.contradicted_share);
-  } else if (summary.pose_sigma_m > tolerance_m) {
-    summary.doubt = fmt::format(
-        "the map is in doubt: by what the scans say of each other a pose is known to {:.2f} m, and "
-        "no loop says better (localisation.tolerance_cells)",
-        summary.pose_sigma_m);
+  if (loops != nullptr) {
+    summary.loops = loops->graph().loops();
+    summary.loops_refused = loops->graph().refused();
+    summary.corrections = loops->corrections();
+    summary.contradicted_share = loops->contradicted_share();
   }
+  summary.doubt = doubt_of(summary, scans_, options_);
   return summary;
 }
 

@@ -98,6 +98,7 @@ struct LocalisationOptions {
   bool accept_drift = false;
   LoopOptions loops;
   double max_contradicted = 0.06;
+  double max_unregistered = 0.2;
   void fields(auto&& f) {
     f("tolerance_cells", tolerance_cells,
       "how far off its place, RMS, the robot may believe what it maps to be, in the longest edge "
@@ -111,6 +112,10 @@ struct LocalisationOptions {
       "exploration: share of the planar scanner's returns whose beams go through a wall of the "
       "map, "
       "above which the map is in doubt; higher says so later",
+      between(0.0, 1.0));
+    f("max_unregistered", max_unregistered,
+      "share of the scans that fit nowhere near where the wheels say, above which the map is in "
+      "doubt; higher says so later",
       between(0.0, 1.0));
   }
 };

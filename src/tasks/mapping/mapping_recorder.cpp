@@ -254,8 +254,8 @@ RecordTexts mapping_records() {
        "drawn "
        "twice; null: the task closes no loops"},
       {kMetrics, "localisation.map_in_doubt",
-       "map_sigma_m, pose_sigma_m or contradicted_share is "
-       "too large"},
+       "map_sigma_m, pose_sigma_m or contradicted_share is too large, or too few of the scans were "
+       "registered"},
       {kMetrics, "localisation.doubt", "why, in words; null: not in doubt, or not trusted"},
       {kMetrics, "region", "box of the map, world: min_m, max_m"},
       {kMetrics, "candidates", "views of the last decision"},

@@ -218,6 +218,19 @@ TEST(MappingLoops, LeaveTheMapInDoubtWhereWallsAreDrawnTwiceOrPosesAreUnsure) {
   EXPECT_NE(doubt_before_walls(options).find("localisation.tolerance_cells"), std::string::npos);
 }
 
+TEST(MappingLoops, AreNotNeededToDoubtAMapThatScansDoNotFit) {
+  Tabletop task = still_table().task;
+  task.localisation.max_unregistered = 0.4;
+  AtStillTable at(task);
+  at.parts.scans_.resize(5);
+  at.parts.scans_[1].registered = at.parts.scans_[4].registered = false;
+  EXPECT_EQ(at.parts.localisation().doubt, "") << "no more than may be";
+  at.parts.scans_[0].registered = false;
+  const std::string doubt = at.parts.localisation().doubt;
+  EXPECT_NE(doubt.find("3 of 5 scans fit nowhere"), std::string::npos) << doubt;
+  EXPECT_NE(doubt.find("localisation.max_unregistered"), std::string::npos) << doubt;
+}
+
 TEST(MappingLoops, MakeTheMapsOfTheNavigatorAnew) {
   AtStillTable at(still_table().task);
   const LoopClosing& loops = with_loops(at);

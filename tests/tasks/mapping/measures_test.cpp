@@ -334,6 +334,16 @@ TEST(MappingMeasures, ReadEachScan) {
   }
 }
 
+TEST(MappingMeasures, OfAMapInDoubt) {
+  Json metrics = metrics_with({});
+  for (const bool doubted : {false, true}) {
+    metrics["localisation"] = {{"map_in_doubt", doubted}};
+    EXPECT_EQ(scalar(metrics, "map_in_doubt"), doubted ? 1.0 : 0.0);
+  }
+  metrics.erase("localisation");
+  EXPECT_FALSE(scalar(metrics, "map_in_doubt")) << "a run that ended before there was one";
+}
+
 TEST(MappingMeasures, KnowWhichDirectionIsBetter) {
   const std::set<std::string_view> higher{"observed_share", "reached_95", "precision", "recall"};
   const auto is_to_a_share = [](std::string_view name) {

@@ -111,6 +111,12 @@ Scalar map_score(const MeasuredEpisode& episode, const char* key) {
   return value.is_null() ? Scalar{} : value.get<double>();
 }
 
+Scalar map_in_doubt(const MeasuredEpisode& episode) {
+  const Json found = episode.metrics.value("localisation", Json::object());
+  return found.contains("map_in_doubt") ? Scalar(found["map_in_doubt"].get<bool>() ? 1.0 : 0.0)
+                                        : Scalar{};
+}
+
 Scalar budget_kept(const MeasuredEpisode& episode) {
   const Json budget = episode.metrics.value("budget", Json());
   return budget.is_null() ? Scalar{} : Scalar(budget.at("kept").get<bool>() ? 1.0 : 0.0);
@@ -215,6 +221,7 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     {{"worst_pose_error_m",
       "greatest error of the position that a scan was taken into the map at, m", Better::lower},
      worst_pose_error},
+    {{"map_in_doubt", "1 if the run says itself that its map is in doubt, else 0"}, map_in_doubt},
     kSimulatedTime,
 });
 
