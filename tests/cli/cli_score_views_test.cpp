@@ -200,8 +200,8 @@ TEST_F(ScoreViewsCommand, MapsWiderThanAnyMemory) {
                                          {{0, 0, 0}, 8, true},
                                          {{-32, 0, 32767}, 8, false}},
                                         0.05));
-#ifdef __SANITIZE_ADDRESS__
-  const std::string limit;  // its shadow memory is larger than any limit
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  const std::string limit;  // their shadow memory is larger than any limit
 #else
   const std::string limit = "ulimit -v 4000000 && ";
 #endif
