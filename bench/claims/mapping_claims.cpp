@@ -14,11 +14,11 @@ namespace {
 
 std::string not_ahead(const std::vector<std::string>& level_in,
                       const std::vector<std::string>& behind_in) {
-  std::string text;
-  if (!level_in.empty()) text += fmt::format("level in {}; ", fmt::join(level_in, ", "));
+  std::vector<std::string> parts;
+  if (!level_in.empty()) parts.push_back(fmt::format("level in {}", fmt::join(level_in, ", ")));
   if (!behind_in.empty())
-    text += fmt::format("`simple` is ahead in {}; ", fmt::join(behind_in, ", "));
-  return text;
+    parts.push_back(fmt::format("`simple` is ahead in {}", fmt::join(behind_in, ", ")));
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 /// Of the oracles that the study has, and in how many episodes the reference does better.
@@ -65,13 +65,10 @@ Finding adaptive_against_simple(const StudyTables& study, const std::vector<cons
         }
         if (!panels.empty())
           parts.push_back("area in " + fmt::format("{}", fmt::join(panels, ", ")));
-        return {fmt::format("`{}` in terms of `{}`: {}", other, study.reference(),
-                            fmt::join(parts, "; ")),
-                level_in.empty() && behind_in.empty(),
-                not_ahead(level_in, behind_in) +
-                    "how much there was to win: the area of those that know what a view shows, "
-                    "none of which is a bound: " +
-                    headroom(study)};
+        return {fmt::format("`{}` in terms of `{}`: {}; how much there was to win: the area of "
+                            "those that know what a view shows, none of which is a bound: {}",
+                            other, study.reference(), fmt::join(parts, "; "), headroom(study)),
+                level_in.empty() && behind_in.empty(), not_ahead(level_in, behind_in)};
       });
 }
 

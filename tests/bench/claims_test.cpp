@@ -295,10 +295,10 @@ TEST(TabletopClaims, AnOracleIsNoBoundWhereItIsBeaten) {
   }
   for (const Finding& finding : tabletop_findings(StudyTables(study, results))) {
     if (finding.claim.find("is ahead of `simple`") == std::string::npos) continue;
-    EXPECT_THAT(finding.why, testing::HasSubstr("`oracle` 0.60"));
-    EXPECT_THAT(finding.why, testing::HasSubstr("beaten by `simple` in 5 of 50; "
+    EXPECT_THAT(finding.measured, testing::HasSubstr("`oracle` 0.60"));
+    EXPECT_THAT(finding.measured, testing::HasSubstr("beaten by `simple` in 5 of 50; "
                                                 "`oracle_lookahead` 0.50"));
-    EXPECT_THAT(finding.why, testing::EndsWith("beaten by `simple` in 0 of 50"));
+    EXPECT_THAT(finding.measured, testing::EndsWith("beaten by `simple` in 0 of 50"));
     return;
   }
   ADD_FAILURE() << "no such claim";

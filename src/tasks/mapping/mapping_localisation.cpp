@@ -19,16 +19,16 @@ std::vector<ScanRecord*> pointers_to(std::vector<ScanRecord>& scans) {
 }
 
 /// Why the map is in doubt; empty if it is not.
-std::string doubt_of(const LocalisationSummary& found, std::span<const ScanRecord> scans,
+/// @param lost scans that should tell the pose, and do not
+std::string doubt_of(const LocalisationSummary& found, std::size_t lost, std::size_t scans,
                      const MappingOptions& options) {
   const LocalisationOptions& limits = options.localisation;
-  const auto lost = std::ranges::count(scans, false, &ScanRecord::registered);
   const double contradicted = found.contradicted_share.value_or(0.0);
-  if (static_cast<double>(lost) > limits.max_unregistered * static_cast<double>(scans.size())) {
+  if (static_cast<double>(lost) > limits.max_unregistered * static_cast<double>(scans)) {
     return fmt::format(
         "the map is in doubt: {} of {} scans fit nowhere near where the wheels say, which may have "
         "slipped (localisation.max_unregistered)",
-        lost, scans.size());
+        lost, scans);
   }
   if (contradicted > limits.max_contradicted) {
     return fmt::format(
@@ -114,7 +114,10 @@ LocalisationSummary MappingParts::localisation() {
     summary.corrections = loops->corrections();
     summary.contradicted_share = loops->contradicted_share();
   }
-  summary.doubt = doubt_of(summary, scans_, options_);
+  // Where nothing is to be seen that fixes a pose, scans that fit nowhere are no sign of slip.
+  const auto lost = std::ranges::count(scans_, false, &ScanRecord::registered);
+  summary.doubt = doubt_of(summary, scans_tell_pose_ ? static_cast<std::size_t>(lost) : 0,
+                           scans_.size(), options_);
   return summary;
 }
 

@@ -48,7 +48,7 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
 }
 
 void MappingParts::look_round_at_start() {
-  navigator_.turn_in_place();
+  scans_tell_pose_ = navigator_.turn_in_place();
   predict(robot_.estimated_sensor());
 }
 

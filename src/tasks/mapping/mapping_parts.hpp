@@ -132,7 +132,8 @@ class MappingParts {
   std::optional<PartialScans> partial_scans_;  ///< none: every scan is a whole one
   std::vector<Candidate> views_;
   bool views_have_gains_ = false;
-  PlannedTour tour_;  ///< of the last decision, if its choice planned ahead
+  bool scans_tell_pose_ = true;  ///< by what the scanner saw at the start
+  PlannedTour tour_;             ///< of the last decision, if its choice planned ahead
   FormerPlan former_ = FormerPlan::none;
   std::optional<Eigen::Vector2d>
       intended_m_;                 ///< where the plan wants to scan after its first view

@@ -229,6 +229,8 @@ TEST(MappingLoops, AreNotNeededToDoubtAMapThatScansDoNotFit) {
   const std::string doubt = at.parts.localisation().doubt;
   EXPECT_NE(doubt.find("3 of 5 scans fit nowhere"), std::string::npos) << doubt;
   EXPECT_NE(doubt.find("localisation.max_unregistered"), std::string::npos) << doubt;
+  at.parts.scans_tell_pose_ = false;
+  EXPECT_EQ(at.parts.localisation().doubt, "") << "there is nothing to fit to";
 }
 
 TEST(MappingLoops, MakeTheMapsOfTheNavigatorAnew) {

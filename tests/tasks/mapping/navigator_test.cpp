@@ -82,7 +82,7 @@ TEST(Navigator, RemembersWallsAllRoundWhenItTurns) {
   once.remember(robot.read_base_scanner(), robot.base_scan_height_m(), {});
   ASSERT_GT(once.cloud().size(), 500U);
   Navigator navigator({}, {}, {}, robot, ReferenceMap(hall_registration()), 1);
-  navigator.turn_in_place();
+  EXPECT_TRUE(navigator.turn_in_place());
   EXPECT_GT(navigator.reference_map().cloud().size(), 7 * once.cloud().size() / 2);
 }
 

@@ -87,6 +87,7 @@ struct StillParts : TabletopParts {
   using TabletopParts::predict;
   using TabletopParts::record_scan;
   using TabletopParts::scans_;
+  using TabletopParts::scans_tell_pose_;
   using TabletopParts::views_have_gains_;
   using TabletopParts::views_of_truth;
   void end_with(const std::vector<Candidate>& views) { MappingParts::end(views); }

@@ -105,7 +105,7 @@ void Navigator::add_scan(const PlanarScan& scan, const Pose2& T_world_base) {
   clear_outline(*detail(), moved(passages_->robot.outline, T_world_base));
 }
 
-void Navigator::turn_in_place() {
+bool Navigator::turn_in_place() {
   const Pose2 start = robot_.estimated_base();
   clear_footprint(floor_, start, options_.inflation_m() + floor_.cell_m);
   if (passages_) clear_footprint(*detail(), start, options_.inflation_m() + floor_.cell_m);
@@ -114,7 +114,7 @@ void Navigator::turn_in_place() {
   if (!reference_map_.walls_fix_pose(scan, robot_.base_scan_height_m())) {
     if (!reference_map_.posts_fix_pose(scan)) {
       add_scan(scan, start);
-      return;
+      return false;
     }
     reference_map_.go_by_posts();
   }
@@ -125,6 +125,7 @@ void Navigator::turn_in_place() {
     const PlanarScan seen = read_scanner();
     if (located) extend_reference_map(seen, robot_.estimated_base());
   }
+  return true;
 }
 
 void Navigator::remember(const PlanarScan& scan, const Pose2& T_world_base) {

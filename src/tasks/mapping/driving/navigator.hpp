@@ -47,7 +47,8 @@ class Navigator {
   /// Turns once in place, to know the floor on all sides: the scanner does not see behind the
   /// robot. Whoever starts the robot gives it room for that. Where the scanner sees nothing that
   /// fixes the pose it stays as it stands: a turn would lose the heading.
-  void turn_in_place();
+  /// @return whether it sees anything that does
+  bool turn_in_place();
   /// Adds a scan that was taken at a known place to what it drives by and over.
   void remember(const PlanarScan& scan, const Pose2& T_world_base);
   /// A registration has put the base there. @param information of it, zero if it has failed
