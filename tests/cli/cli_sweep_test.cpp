@@ -31,6 +31,16 @@ TEST_F(CommandLine, ASweepKeepsWholeRunsIfToldTo) {
   }
 }
 
+/// The first episode tells how long the second may take.
+TEST_F(CommandLine, ASweepTellsHowMuchTimeIsLeft) {
+  file("two.yaml", kStudy);
+  const Result result = vantage("sweep run two.yaml --out study --jobs 1");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output,
+              testing::ContainsRegex("50 % 1 of 2 episodes, about [1-9][0-9]* s left; a"));
+  EXPECT_THAT(result.output, HasSubstr("100 % 2 of 2 episodes, about 0 s left; b"));
+}
+
 /// The second episode would take far longer than the first.
 TEST_F(CommandLine, AnInterruptedSweepCollectsWhatThereIs) {
   file("two.yaml", R"(episode: assets/episodes/tabletop.yaml
